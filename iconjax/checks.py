@@ -1,0 +1,84 @@
+"""What can be known to be wrong with a command before the long work begins."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from iconjax.errors import ConfigError, InputError
+from iconjax.files import check_writable, image_format
+
+CASE_FILES = (
+    "case.json",
+    "image.png",
+    "segmentation.png",
+    "program.txt",
+    "checks.json",
+    "ground_truth.png",
+    "ground_truth.json",
+)
+"""Files of a case folder, which no output replaces."""
+
+
+def default_output(picture: str) -> Path:
+    """Where the edited picture goes when nobody says: `NAME-edited.png` in the current folder."""
+    path = Path(picture)
+    return Path(f"{path.resolve().name if path.is_dir() else path.stem}-edited.png")
+
+
+def check_picture(picture: str, seg: str | None, labels: str | None) -> None:
+    """A picture with its segments, or a case folder without any.
+
+    Raises:
+        InputError: it is missing, or the options do not fit it.
+    """
+    path = Path(picture)
+    if not path.exists():
+        raise InputError(f"there is no file or folder {picture}")
+    if path.is_dir():
+        if seg is not None or labels is not None:
+            raise InputError(
+                f"{picture} is a case folder, which has its own segmentation: leave out --seg and --labels"
+            )
+    elif seg is None:
+        raise InputError(
+            f"{picture} is an image, so it needs --seg (a label map) and --labels; or give a case folder"
+        )
+
+
+def check_choices(translator: str | None, program: str | None, interpretations: int) -> None:
+    """Options that exclude each other, that are not supported, or that name no translator.
+
+    Raises:
+        ConfigError: the message says what to leave out or to write.
+    """
+    if program is not None and translator is not None:
+        raise ConfigError("--program skips translation: leave out --translator")
+    if interpretations < 1:
+        raise ConfigError("--interpretations has to be at least 1")
+    if interpretations > 1:
+        raise ConfigError("--interpretations: only 1 is supported so far")
+    if program is None:
+        from iconjax.edit.choose import choose_translator
+
+        choose_translator(translator)
+
+
+def check_outputs(
+    target: Path, json_file: str | None, trace: str | None, inputs: tuple[str | None, ...]
+) -> None:
+    """Output files that cannot be written, that collide, or that would overwrite an input.
+
+    Raises:
+        InputError: the first that is wrong.
+    """
+    image_format(target)
+    targets = [p for p in (target, json_file, trace) if p is not None and str(p) != "-"]
+    places = [Path(p).resolve() for p in targets]
+    taken = {Path(p).resolve() for p in inputs if p is not None}
+    taken |= {place / name for place in taken if place.is_dir() for name in CASE_FILES}
+    for path, place in zip(targets, places, strict=True):
+        if places.count(place) > 1:
+            raise InputError(f"{path} is named twice as an output")
+        if place.is_file() and any(other.exists() and place.samefile(other) for other in taken):
+            raise InputError(f"{path} is an input: it is not overwritten")
+        check_writable(path)

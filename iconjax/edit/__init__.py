@@ -1,0 +1,1 @@
+"""The whole job, from a picture and a sentence to the edited picture: see `iconjax.edit.api`."""

@@ -1,0 +1,191 @@
+"""A request cut into typed pieces: noun phrases, amounts, verbs, relations, separators."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from iconjax.errors import TranslationError
+from iconjax.language.lexicon import Entry, Lexicon
+from iconjax.language.names import Names
+from iconjax.language.phrases import PhraseReader
+from iconjax.language.quantities import QuantityReader
+
+CATEGORIES = (
+    "unsupported",
+    "separator",
+    "instead",
+    "apart",
+    "upside_down",
+    "relation",
+    "fixed",
+    "sense",
+    "dim_idiom",
+    "direction",
+    "orient",
+    "squarely",
+    "together",
+    "mutual",
+    "rest",
+    "mode",
+    "places",
+    "adjective",
+    "dim",
+    "verb",
+    "side",
+)
+"""Categories in the order in which they win where they match equally long phrases."""
+OPENERS = ("separator", "without", "verb", "mode")
+
+
+@dataclass(frozen=True)
+class Chunk:
+    """A piece of a request.
+
+    Attributes:
+        kind: "phrase", "amount", "measure", "as", "than", "same", "too", "unknown" or a lexicon category.
+        value: the lexicon's value, or "".
+        data: the Phrase, Amount, Quantity or lexicon entry.
+        text: as written.
+        start: position of its first word.
+    """
+
+    kind: str
+    value: str
+    data: Any
+    text: str
+    start: int
+
+
+def chunk(words: Sequence[str], lexicon: Lexicon, names: Names) -> list[Chunk]:
+    """Cut a request into pieces, left to right, the longest reading first.
+
+    Raises:
+        TranslationError: the request asks for something that is not a change of place, pose or size.
+    """
+    phrases = PhraseReader(words, lexicon, names)
+    quantities = QuantityReader(phrases)
+    out: list[Chunk] = []
+    i = 0
+    while i < len(words):
+        kind, value, data, end = _next(words, i, out, lexicon, names, phrases, quantities)
+        if kind == "unsupported":
+            raise TranslationError(f'"{" ".join(words[i:end])}": {value}')
+        if kind != "stop":
+            out.append(Chunk(kind, value, data, " ".join(words[i:end]).replace(" 's", "'s"), i))
+        i = end
+    return out
+
+
+def _next(
+    words: Sequence[str],
+    i: int,
+    out: list[Chunk],
+    lexicon: Lexicon,
+    names: Names,
+    phrases: PhraseReader,
+    quantities: QuantityReader,
+) -> tuple[str, str, Any, int]:
+    word = words[i]
+    previous = out[-1].kind if out else "separator"
+    if out and out[-1].value == "keep":
+        previous = "keep"
+    lexical = _lexical(words, i, previous, lexicon, phrases)
+    reach = lexical[1] if lexical is not None else i
+    amount = quantities.amount(i)
+    if (
+        amount is not None
+        and amount[1] >= reach
+        and not (amount[0].unit == "none" and phrases.noun_at(amount[1], False))
+    ):
+        return "amount", "", amount[0], amount[1]
+    measure = quantities.measure(i)
+    if measure is not None and measure[1] > reach:
+        return "measure", "", measure[0], measure[1]
+    phrase = phrases.read(i)
+    if (
+        word in ("that", "which", "who")
+        and out
+        and (verb := lexicon.match(words, i + 1, "verb")) is not None
+        and verb[0].value == "make"
+    ):
+        return "stop", "", None, i + 1
+    if phrase is not None and phrase[1] > reach:
+        return "phrase", "", phrase[0], phrase[1]
+    if (
+        phrase is not None
+        and phrase[1] == reach
+        and lexical is not None
+        and lexical[0].category not in OPENERS
+        and not lexicon.knows(word, {"direction", "adjective", "relation", "mode", "orient"})
+    ):
+        return "phrase", "", phrase[0], phrase[1]
+    if word in ("as", "than", "same", "too") and reach <= i + 1:
+        return word, "", None, i + 1
+    if lexical is not None:
+        entry, end = lexical
+        if _idle(entry, end, words, quantities, phrases):
+            return "stop", "", None, end
+        kind = "without" if entry.value == "without" else entry.category
+        return kind, entry.value, entry, end
+    if lexicon.knows(word, {"stop"}) or word in ("whole", "entire", "both"):
+        stop = lexicon.match(words, i, "stop")
+        return "stop", "", None, stop[1] if stop else i + 1
+    return "unknown", "", None, i + 1
+
+
+def _lexical(
+    words: Sequence[str], i: int, previous: str, lexicon: Lexicon, phrases: PhraseReader
+) -> tuple[Entry, int] | None:
+    """The longest lexical reading; among equals a verb wins where a clause begins, else CATEGORIES decides."""
+    best: tuple[Entry, int] | None = None
+    order = [c for c in CATEGORIES if c != "verb"]
+    opening = previous in OPENERS or not lexicon.knows(words[i], set(order) - {"side", "places"})
+    if previous == "keep" and (fixed := lexicon.match(words, i, "fixed")) is not None:
+        return fixed
+    order = ["verb", *order] if opening else [*order, "verb"]
+    stops = lexicon.match(words, i, "stop")
+    for category in order:
+        got = lexicon.match(words, i, category)
+        if got is None or (best is not None and got[1] <= best[1]):
+            continue
+        if category == "direction" and _announces(words, got[1], lexicon, phrases):
+            continue
+        if category == "unsupported" and names_noun(phrases, i):
+            continue
+        best = got
+    if best is not None and stops is not None and stops[1] > best[1]:
+        return None
+    return best
+
+
+def _announces(words: Sequence[str], end: int, lexicon: Lexicon, phrases: PhraseReader) -> bool:
+    """Whether what looks like a direction goes on to name something: "to the left | leg", "to the right | edge"."""
+    if not lexicon.knows(words[end - 1], {"modifier"}):
+        return False
+    if words[end : end + 1] == ["of"] and words[end - 1] in ("top", "bottom"):
+        return True
+    sides = (lexicon.match(words, at, "side") for at in (end - 1, end - 2) if at >= 0)
+    return phrases.noun_at(end, False) or any(s is not None and s[1] > end for s in sides)
+
+
+def names_noun(phrases: PhraseReader, i: int) -> bool:
+    """Whether the word at `i` names something in the picture."""
+    return phrases.names.hear(phrases.words[i]) is not None
+
+
+def _idle(
+    entry: Entry, end: int, words: Sequence[str], quantities: QuantityReader, phrases: PhraseReader
+) -> bool:
+    """Prepositions that here only introduce an amount or a measure: "in height", "about 20", "at last"."""
+    following = phrases.word(end)
+    if entry.category == "relation" and entry.value in ("around", "inside", "on", "along"):
+        nothing = phrases.read(end) is None
+        return (
+            quantities.amount(end) is not None
+            or (quantities.measure(end) is not None)
+            or (nothing and following != "")
+            or (nothing and following == "")
+        )
+    return entry.category == "side"

@@ -1,0 +1,50 @@
+"""Sizes as constraints."""
+
+from __future__ import annotations
+
+from iconjax.language.clauses import Amount, Clause
+from iconjax.language.collector import EDGES, Collector, call, keeps, quoted, sized
+
+
+def scale(out: Collector, clause: Clause) -> None:
+    """A change of size."""
+    if "without motion" not in clause.manner:
+        out.moves("scale", clause)
+    dims = ("hori", "vert") if clause.dimension == "size" else (clause.dimension,)
+    for name in clause.theme:
+        for dim in dims:
+            extent(out, clause, name, dim)
+        for mark in clause.manner:
+            if mark.startswith("pin "):
+                out.add(*(keeps(e, name) for e in EDGES[mark[4:]]))
+
+
+def extent(out: Collector, clause: Clause, name: str, dim: str) -> None:
+    attribute, s = out.shapes.extent(name, dim), quoted(name)
+    now, amount = call(attribute, s), clause.amount or Amount(1.0, "factor")
+    if amount.unit == "length":
+        return out.equal(now, amount.value)
+    if not clause.reference:
+        return out.equal(now, sized(amount, call(attribute, call("old", s))))
+    reference_dim = dim if clause.dimension == "size" else clause.side or dim
+    at = clause.theme.index(name) if len(clause.reference) == len(clause.theme) else 0
+    for other in clause.reference[at : at + 1]:
+        theirs = call(out.shapes.extent(other, reference_dim), quoted(other))
+        if amount.unit in ("more", "less"):
+            out.add(
+                call(
+                    "larger" if amount.unit == "more" else "smaller",
+                    now,
+                    call("mul", 1.1 if amount.unit == "more" else 0.9, theirs),
+                )
+            )
+        else:
+            out.equal(now, sized(amount, theirs))
+    return None
+
+
+def resize(out: Collector, clause: Clause) -> None:
+    """A change of size of which the next clause says how far it goes."""
+    out.moves("scale", clause)
+    if "uniform" in clause.manner:
+        out.add(*(call("uniform", quoted(n)) for n in clause.theme))

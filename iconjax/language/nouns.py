@@ -1,0 +1,190 @@
+"""The core of a noun phrase: modifiers, ordinals and nouns."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from iconjax.language.lexicon import Lexicon
+from iconjax.language.names import Names, Phrase
+
+GRAMMAR = frozenset(
+    [
+        "verb",
+        "relation",
+        "direction",
+        "adjective",
+        "dim",
+        "mode",
+        "separator",
+        "sense",
+        "orient",
+        "fixed",
+        "stop",
+        "pronoun",
+        "side",
+        "number",
+        "fraction",
+        "multiple",
+        "unit",
+        "apart",
+        "distance",
+        "places",
+        "squarely",
+        "vague",
+    ]
+)
+"""Categories that win over a name when nothing announces a noun."""
+ANAPHORS = frozenset({"one", "ones", "other", "others"})
+
+
+class NounReader:
+    """Reads the core of noun phrases at given places of a request."""
+
+    def __init__(self, words: Sequence[str], lexicon: Lexicon, names: Names) -> None:
+        self.words, self.lexicon, self.names = words, lexicon, names
+
+    def word(self, i: int) -> str:
+        """The word at `i`, or "" beyond the end."""
+        return self.words[i] if 0 <= i < len(self.words) else ""
+
+    def body(self, i: int, announced: bool) -> tuple[Phrase, int] | None:
+        """Modifiers and nouns at `i`; `announced` says that a determiner or owner came before."""
+        strange = self.strange(i) if announced and self.noun_follows(i + 1) else ()
+        i += len(strange)
+        special = self._special(i, announced)
+        if special is not None:
+            return Phrase("", special=special), i + 1
+        phrase, start = Phrase("", ignored=strange), i
+        while announced or self.noun_follows(i):
+            if announced and self._elliptical(i):
+                return self._alone(phrase, i), i + 1
+            step = self._premodifier(i)
+            if step is None:
+                break
+            phrase, i, announced = _described(phrase, *step), i + 1, True
+        if self.word(i) in ANAPHORS and (announced or i > start):
+            other = phrase.indefinite or ("other" if self.word(i).startswith("other") else None)
+            return with_(phrase, indefinite=other, plural=self.word(i).endswith("s")), i + 1
+        return self._nouns(phrase, i, announced)
+
+    def _nouns(self, phrase: Phrase, i: int, announced: bool) -> tuple[Phrase, int] | None:
+        nouns: list[str] = []
+        plural = False
+        while self.noun_at(i, announced and not nouns) or (nouns and self._goes_on(nouns, i)):
+            nouns.extend(self.names.hear(self.word(i)) or ())
+            plural = self.lexicon.singular(self.word(i)) != self.word(i)
+            i += 1
+        if not nouns:
+            return (phrase, i) if phrase.indefinite else None
+        if all(self.lexicon.knows(n, {"modifier", "ordinal"}) for n in nouns) and not self._is_name(nouns):
+            return None  # "the right" alone is no thing
+        return self._from_side(with_(phrase, nouns=tuple(dict.fromkeys(nouns)), plural=plural), i)
+
+    def _special(self, i: int, announced: bool) -> str | None:
+        """The picture or the ground, where they are no things of the picture."""
+        if self.word(i) and not self.names.hear(self.word(i)):
+            if self.lexicon.knows(self.word(i), {"canvas"}):
+                return "canvas"
+            if announced and self.lexicon.knows(self.word(i), {"ground"}):
+                return "ground"
+        return None
+
+    def _alone(self, phrase: Phrase, i: int) -> Phrase:
+        ordinal = self.lexicon.match([self.word(i)], 0, "ordinal")
+        if ordinal is not None:
+            return with_(phrase, ordinal=int(ordinal[0].value))
+        side = self.lexicon.match([self.word(i)], 0, "modifier")
+        return phrase if side is None else with_(phrase, modifiers=(side[0].value,))
+
+    def _is_name(self, nouns: Sequence[str]) -> bool:
+        every = (*self.names.objects, *self.names.parts)
+        return any(set(nouns) in (set(e.part_words), set(e.object_words)) for e in every)
+
+    def _from_side(self, phrase: Phrase, i: int) -> tuple[Phrase, int]:
+        """ "... from the right", "... on the left" after a noun that needs telling apart."""
+        if phrase.ordinal is not None and self.word(i) == "from" and self.word(i + 1) == "the":
+            got = self.lexicon.match(self.words, i + 2, "modifier")
+            if got is not None and got[0].value in ("left", "right", "top", "bottom"):
+                return with_(phrase, ordinal_from=got[0].value), got[1]
+        where = self.lexicon.match(self.words, i, "direction") if self.word(i) == "on" else None
+        if where is None or where[0].value not in ("left", "right") or self.word(where[1]) == "of":
+            return phrase, i
+        if phrase.plural or phrase.modifiers or len(self.names.like(phrase)) < 2:
+            return phrase, i
+        return with_(phrase, modifiers=(where[0].value,)), where[1]
+
+    def _goes_on(self, nouns: Sequence[str], i: int) -> bool:
+        """Whether the word at `i`, though it has other uses, completes a name: "the table | top"."""
+        heard = self.names.hear(self.word(i))
+        if heard is None or self.lexicon.knows(
+            self.word(i), {"direction", "adjective", "relation", "mode", "stop"}
+        ):
+            return False
+        return any({*nouns, *heard} <= e.words and set(heard) <= e.part_words for e in self.names.parts)
+
+    def strange(self, i: int) -> tuple[str, ...]:
+        """The word at `i` where it means nothing at all here."""
+        word = self.word(i)
+        known = word in self.lexicon.words or self.names.hear(word) is not None
+        return () if known or not word.isalpha() else (word,)
+
+    def _elliptical(self, i: int) -> bool:
+        """ "the first | and the last candle", "the left | and the right window", "on the second" at the end."""
+        if self.lexicon.knows(self.word(i), {"ordinal"}) and self.word(i + 1) in ("", ".", ";", ","):
+            return True
+        if not self.lexicon.knows(self.word(i), {"ordinal", "modifier"}) or self.word(i + 1) != "and":
+            return False
+        following = i + 3 if self.word(i + 2) == "the" else i + 2
+        return self.lexicon.knows(self.word(following), {"ordinal", "modifier"}) and self.noun_at(
+            following + 1, True
+        )
+
+    def _premodifier(self, i: int) -> tuple[str, str] | None:
+        word = self.words[i]
+        following = self.noun_follows(i + 1) or self.word(i + 1) in ("one", "ones")
+        if not following and word not in ("other",):
+            return None
+        if word == "other" and (self.noun_at(i + 1, True) or self.word(i + 1) in ("one", "ones")):
+            return ("other", "other")
+        for category in ("modifier", "ordinal"):
+            got = self.lexicon.match([word], 0, category)
+            if got is not None:
+                return category, got[0].value
+        if self.lexicon.knows(word, {"descriptor"}) and not self.names.hear(word):
+            return ("descriptor", word)
+        return None
+
+    def noun_follows(self, i: int) -> bool:
+        """Whether, after more modifiers, a noun comes."""
+        while self.lexicon.knows(self.word(i), {"modifier", "ordinal", "descriptor"}) and not self.noun_at(
+            i, False
+        ):
+            i += 1
+        return self.noun_at(i, True)
+
+    def noun_at(self, i: int, announced: bool) -> bool:
+        """Whether the word at `i` names something; words of the grammar do only where a noun is announced."""
+        word = self.word(i)
+        if not word or self.names.hear(word) is None:
+            return False
+        if announced:
+            return True
+        return not self.lexicon.knows(word, GRAMMAR)
+
+
+def with_(phrase: Phrase, **changes: object) -> Phrase:
+    """A phrase with some attributes changed."""
+    return replace(phrase, **changes)  # type: ignore[arg-type]
+
+
+def _described(phrase: Phrase, kind: str, value: str) -> Phrase:
+    """A phrase with one more word before its noun."""
+    match kind:
+        case "modifier":
+            return with_(phrase, modifiers=(*phrase.modifiers, value))
+        case "ordinal":
+            return with_(phrase, ordinal=int(value))
+        case "other":
+            return with_(phrase, indefinite="other")
+    return phrase

@@ -1,0 +1,116 @@
+"""Noun phrases: "the left leg of the table", "both windows", "its bottom"."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from iconjax.language.names import Phrase
+from iconjax.language.nouns import NounReader, with_
+
+DETERMINERS = frozenset({"the", "a", "an", "this", "that", "these", "those"})
+POSSESSIVES = frozenset({"its", "their", "his", "her"})
+
+
+class PhraseReader(NounReader):
+    """Reads noun phrases, with their owners and sides, at given places of a request."""
+
+    def read(self, i: int) -> tuple[Phrase, int] | None:
+        """The longest noun phrase that begins at `i`, and where it ends."""
+        start = i
+        got = self._core(i)
+        if got is None:
+            return None
+        phrase, i = got
+        while self.word(i) == "'s" or (
+            phrase.pronoun is None and phrase.side is None and self.word(i) == "of"
+        ):
+            if self.word(i) == "'s":
+                after = self._possessed(i + 1, phrase)
+                if after is None:
+                    break
+                phrase, i = after
+            else:
+                owner = self.read(i + 1)
+                strange = self.strange(i + 2) if self.word(i + 1) == "the" else ()
+                if owner is None and strange and phrase.nouns and not phrase.owner:
+                    phrase, i = with_(phrase, ignored=strange), i + 3
+                    break
+                if owner is None or owner[0].pronoun not in (None, "it", "them"):
+                    break
+                phrase, i = with_(phrase, owner=owner[0]), owner[1]
+        return with_(phrase, text=" ".join(self.words[start:i]).replace(" 's", "'s")), i
+
+    def _core(self, i: int) -> tuple[Phrase, int] | None:
+        start, plural, announced, quantified = i, False, False, False
+        owner: Phrase | None = None
+        count: int | None = None
+        quant = self.lexicon.match(self.words, i, "quantifier")
+        if quant is not None:
+            plural, announced, quantified, i = True, True, True, quant[1]
+        if self.word(i) in POSSESSIVES:
+            owner = Phrase(self.word(i), pronoun="it" if self.word(i) != "their" else "them")
+            announced, i = True, i + 1
+        elif self.word(i) in DETERMINERS:
+            announced, i = True, i + 1
+        if self.lexicon.knows(self.word(i), {"number"}) and self.word(i) not in ("one", "a", "an"):
+            number = self.lexicon.match([self.word(i)], 0, "number")
+            if number is not None and self.noun_follows(i + 1):
+                plural, count, i = True, int(number[0].value), i + 1
+        indefinite = None
+        if self.word(i) in ("one", "another") and not announced and self.noun_follows(i + 1):
+            indefinite, announced, i = "one", True, i + 1
+        side = self._side(i, announced, owner)
+        if side is not None:
+            return side
+        found = self.body(i, announced)
+        if found is not None:
+            phrase, i = found
+            phrase = with_(phrase, indefinite=phrase.indefinite or indefinite)
+            return with_(phrase, owner=owner, plural=phrase.plural or plural, count=count), i
+        if quantified and (self.word(i) in ("them", "it") or (i > start + 0 and not announced)):
+            return Phrase("them", pronoun="them", plural=True), i + 1
+        if quantified and owner is None and i == quant[1] and self.word(start) in ("both", "each", "all"):  # type: ignore[index]
+            return Phrase(self.word(start), pronoun="them", plural=True), i
+        pronoun = self.lexicon.match(self.words, start, "pronoun")
+        if pronoun is not None and pronoun[0].value in ("it", "them"):
+            return Phrase(
+                self.word(start), pronoun=pronoun[0].value, plural=pronoun[0].value == "them"
+            ), pronoun[1]
+        return None
+
+    def _side(self, i: int, announced: bool, owner: Phrase | None) -> tuple[Phrase, int] | None:
+        """A side of something: "the left end of the belt", "its bottom", "the top right corner"."""
+        got = self.lexicon.match(self.words, i, "side")
+        if got is None:
+            return None
+        side, end = got[0].value, got[1]
+        known = all(self.names.hear(w) for w in self.words[i:end])
+        if self.noun_at(end, False) or (known and self.word(end) not in ("of", "'s") and owner is None):
+            return None
+        if self.word(end) == "of":
+            whole = self.read(end + 1)
+            if whole is not None and not (known and self._has_part(whole[0], self.words[i:end])):
+                return Phrase("", side=side, owner=whole[0]), whole[1]
+            return None
+        if owner is not None and known:
+            return None
+        if announced or end - i > 1 or owner is not None:
+            return Phrase("", side=side, owner=owner), end
+        return None
+
+    def _possessed(self, i: int, owner: Phrase) -> tuple[Phrase, int] | None:
+        side = self.lexicon.match(self.words, i, "side")
+        alone = side is not None and not self.noun_at(side[1], False)
+        if side is not None and alone and not self._has_part(owner, self.words[i : side[1]]):
+            return Phrase("", side=side[0].value, owner=owner), side[1]
+        body = self.body(i, True)
+        return None if body is None else (with_(body[0], owner=owner), body[1])
+
+    def _has_part(self, owner: Phrase, words: Sequence[str]) -> bool:
+        if owner.pronoun or owner.special:
+            return False
+        heard = [h for w in words for h in self.names.hear(w) or ("",)]
+        objects = {w for e in self.names.objects for w in e.words} & set(owner.nouns)
+        return any(
+            set(heard) <= e.part_words and (not objects or objects & e.object_words) for e in self.names.parts
+        )

@@ -1,0 +1,64 @@
+"""Readings about two or more things at once: swapping, gaps, alignment."""
+
+from __future__ import annotations
+
+from iconjax.errors import TranslationError
+from iconjax.language.clauses import Amount, Clause
+from iconjax.language.context import Context
+from iconjax.language.frames import Change, Slots
+from iconjax.language.names import Reference
+from iconjax.language.read_sizes import factor
+from iconjax.language.reading import listed
+
+
+def swap(context: Context, theme: Reference, slots: Slots) -> Clause:
+    names = theme.names
+    if len(names) == 1:
+        names = context.names.members_if_collection(names[0])
+    if len(names) != 2:
+        raise TranslationError(f"two things are needed to swap; the request names {listed(names)}")
+    return Clause("swap", names)
+
+
+def gap(context: Context, slots: Slots, theme: Reference) -> Clause:
+    names = theme.names
+    if len(names) == 1:
+        names = context.names.members_if_collection(names[0])
+    if len(names) != 2:
+        raise TranslationError(f"a distance needs two things; the request names {listed(names)}")
+    info = next((v.info for v in slots.verbs if v.value == "scale"), {})
+    sign = {"apart": 1, "closer": -1}.get(slots.marks.get("apart", ""), int(info.get("sign", 0)))
+    sign = slots.changes[0].sign or sign if slots.changes else sign
+    amount = slots.amount or (slots.changes[0].amount if slots.changes else None)
+    if "factor" in info:
+        amount = Amount(float(info["factor"]), "times", "to")
+    if amount is None:
+        raise TranslationError("how large the distance should become is not said")
+    reference: tuple[str, ...] = ()
+    dim = ""
+    if amount.of is not None and amount.of.owners and amount.of.dim != "gap":
+        reference, dim = context.reference(amount.of.owners, names).names, amount.of.dim
+        final = amount
+    elif amount.unit == "px":
+        final = (
+            Amount(amount.value, "length")
+            if not sign or amount.mode == "to"
+            else Amount(sign * amount.value, "added")
+        )
+    else:
+        final = factor(amount, sign, Change("gap"), False)
+    moved = "rotate" if "rotate" in {*slots.kinds(), *(v.value for v in context.verbs)} else "translate"
+    return Clause("gap", names, final, dim, reference=reference, side=theme.side, manner=frozenset({moved}))
+
+
+def align(context: Context, slots: Slots, theme: Reference) -> Clause:
+    if len(theme.names) < 2:
+        names = context.names.members_if_collection(theme.names[0])
+        theme = Reference(names, theme.side)
+    dims = {c.dim for c in slots.changes}
+    if len(theme.names) < 2 or (theme.side is None and len(dims) != 1):
+        raise TranslationError(
+            'align what with what, and on which side? say e.g. "align the tops of A and B"'
+        )
+    side = theme.side or {"vert": "vertical", "hori": "horizontal"}.get(dims.pop(), "")
+    return Clause("align", theme.names, side=side)

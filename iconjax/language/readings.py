@@ -1,0 +1,195 @@
+"""From filled slots to clauses: which action is asked, of what, and how."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from iconjax.errors import TranslationError
+from iconjax.language.clauses import Clause
+from iconjax.language.context import Context
+from iconjax.language.frames import Change, Shift, Slots
+from iconjax.language.names import Reference
+from iconjax.language.read_keeps import keep, negated
+from iconjax.language.read_pairs import align, gap, swap
+from iconjax.language.read_places import join, move
+from iconjax.language.read_sizes import scale
+from iconjax.language.read_turns import rotate, sense_of, turns
+from iconjax.language.reading import FOLLOWING, TURNED, listed
+
+
+class Reader:
+    """Reads clauses one after the other, remembering what was spoken of."""
+
+    def __init__(self, context: Context) -> None:
+        self.context = context
+
+    def read(self, slots: Slots) -> list[Clause]:
+        """The readings of a clause.
+
+        Raises:
+            TranslationError: the slots fit no reading.
+        """
+        if "rest" in slots.marks:
+            if (
+                slots.kinds() <= {"keep", "make", "move", "scale"}
+                and not slots.theme
+                and not slots.relations
+                and not slots.changes
+            ):
+                return []
+            raise TranslationError('"everything" is not a thing of the picture; name what should change')
+        context = self.context
+        self._inherit(slots)
+        relation = slots.relations[0].kind if slots.relations else ""
+        theme = context.theme(slots.theme, relation)
+        clauses = list(self._clauses(slots, theme))
+        if not clauses:
+            raise TranslationError(f"what should happen to {listed(theme.names)} is not understood")
+        context.remember(theme.names, [c.reference for c in clauses])
+        if slots.verbs:
+            context.verbs = slots.verbs
+        return clauses
+
+    def _inherit(self, slots: Slots) -> None:
+        """Complete an elliptical clause: "... and the right one squarely on top of that"."""
+        if not slots.verbs and self._says(slots) and slots.connector not in (*FOLLOWING, "while"):
+            slots.verbs = list(self.context.verbs)
+
+    def _says(self, slots: Slots) -> bool:
+        """Whether a clause says anything besides what it is about."""
+        return bool(slots.changes or slots.shifts or slots.relations or slots.amount or slots.marks)
+
+    def _clauses(self, slots: Slots, theme: Reference) -> Iterator[Clause]:
+        kinds = slots.kinds()
+        if slots.theme and kinds <= {"make"} and not self._says(slots) and slots.follows in (":", ","):
+            yield Clause("topic", theme.names)
+            return
+        vague = all(
+            a is None or a.vague
+            for a in (slots.amount, *(c.amount for c in slots.changes), *(s.amount for s in slots.shifts))
+        )
+        if slots.follows == "by" and vague and not slots.relations:
+            yield Clause("topic", theme.names)
+            return
+        if slots.negated:
+            yield from negated(self.context, slots, theme)
+        elif "keep" in kinds or ("fixed" in slots.marks and not slots.changes):
+            yield from keep(self.context, slots, theme)
+        elif "swap" in kinds:
+            yield swap(self.context, theme, slots)
+        elif slots.gap or ("apart" in slots.marks and not kinds & {"rotate"}):
+            yield gap(self.context, slots, theme)
+        elif "align" in kinds and not slots.relations:
+            yield align(self.context, slots, theme)
+        elif kinds & {"join", "part"}:
+            yield from join(self.context, slots, theme, "touch" if "join" in kinds else "outside")
+        else:
+            yield from self._motions(slots, theme)
+
+    def _motions(self, slots: Slots, theme: Reference) -> Iterator[Clause]:
+        kinds = slots.kinds()
+        self._sort_higher(slots, kinds)
+        yield from self._described(slots, theme)
+        amount = slots.amount
+        if (
+            kinds <= {"make"}
+            and amount is not None
+            and amount.of is not None
+            and not slots.changes
+            and not slots.shifts
+        ):
+            slots.changes, slots.amount = [Change(amount.of.dim, 0, amount, same=True)], None
+        elif (
+            kinds <= {"make"}
+            and amount is not None
+            and amount.unit == "times"
+            and not self._says_place(slots)
+        ):
+            slots.changes, slots.amount = [Change("size", 0, amount, same=True)], None
+        if theme.side is not None and (slots.changes or kinds & {"scale", "rotate"}):
+            raise TranslationError(f"the {theme.side} of {listed(theme.names)} cannot change by itself")
+        found = False
+        if turns(slots, kinds):
+            yield from rotate(self.context, slots, theme)
+            found = True
+        if slots.changes or "scale" in kinds:
+            yield from scale(self.context, slots, theme)
+            found = True
+        relations = [
+            r for r in slots.relations if r.kind not in (*TURNED, "around") and not sense_of(r, slots)
+        ]
+        verbs = any(v.value == "move" for v in slots.verbs)
+        if relations or slots.shifts or verbs or kinds & {"center"}:
+            idle = (
+                found
+                and not relations
+                and not slots.shifts
+                and "rotate" not in kinds
+                and any(v.info.get("place") for v in slots.verbs)
+            )
+            if not idle and (kinds & {"move", "center"} or relations or (slots.shifts and not found)):
+                yield from move(self.context, slots, theme, relations)
+
+    def _sort_higher(self, slots: Slots, kinds: set[str]) -> None:
+        """ "Higher" and "lower" say a size with a percentage, and a place with a verb of motion."""
+        for change in [c for c in slots.changes if c.ambiguous]:
+            relative = (
+                change.amount is not None
+                and change.amount.unit in ("ratio", "times")
+                and not change.amount.vague
+            )
+            if "move" in kinds or not relative:
+                if "move" not in kinds:
+                    raise TranslationError(
+                        f'"{change.ambiguous}" may mean a place or a height: say move ... up or make ... taller'
+                    )
+                slots.changes.remove(change)
+                slots.shifts.append(Shift("up" if change.ambiguous == "higher" else "down", change.amount))
+
+    def _says_place(self, slots: Slots) -> bool:
+        return bool(slots.changes or slots.shifts or slots.relations)
+
+    def _described(self, slots: Slots, theme: Reference) -> Iterator[Clause]:
+        """Take out relations that only describe: "move the cup on the table left", "touches the water in the tub"."""
+        shapes = self.context.names.shapes
+        goals = bool(
+            [s for s in slots.shifts if s.amount]
+            or slots.changes
+            or slots.amount
+            or slots.kinds() & {"rotate", "scale", "orient"}
+        )
+        previous = theme.names
+        for index, relation in enumerate(list(slots.relations)):
+            if not relation.reference or (relation.kind == "around" and turns(slots, slots.kinds())):
+                continue
+            target = self.context.reference(relation.reference, theme.names).names
+            part_of_theme = all(any(shapes.part_of(t, n) for n in theme.names) for t in target)
+            if relation.kind == "around":
+                # "the girder hanging from it"
+                if not (len(previous) == len(target) == 1 and shapes.lies(previous[0], "touch", target[0])):
+                    raise TranslationError(f'what "{listed(target)}" has to do with it is not understood')
+                slots.relations.remove(relation)
+                continue
+            if relation.kind in ("left_side", "right_side"):
+                x0, _, x1, _ = shapes.box(target[0])
+                within = any(x0 < shapes.centre(n)[0] < x1 for n in theme.names)
+                if within and target[0] != "canvas":
+                    raise TranslationError(
+                        f"beside {listed(target)}, or on one half of it? say left of it or at its left end"
+                    )
+                relation.kind = relation.kind.replace("side", "of")
+            if relation.kind in ("on", "inside") and part_of_theme:
+                slots.relations.remove(relation)
+                yield Clause("stay", target)
+            elif (
+                relation.kind in ("on", "inside")
+                and (index > 0 or goals)
+                and len(previous) == len(target) == 1
+            ):
+                if shapes.lies(previous[0], relation.kind, target[0]):
+                    slots.relations.remove(relation)
+                elif index > 0:
+                    raise TranslationError(
+                        f'two places in one clause: "{previous[0]}" is not {relation.kind} "{target[0]}"'
+                    )
+            previous = target

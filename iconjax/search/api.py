@@ -1,0 +1,93 @@
+"""The one way into the search."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+
+import numpy as np
+from jaxtyping import Float
+
+from iconjax.dsl.nodes import Program
+from iconjax.dsl.pretty import to_text
+from iconjax.dsl.registry import Registry
+from iconjax.dsl.units import Unit, pixels_per_unit
+from iconjax.scene.types import Scene
+from iconjax.search.coherent import CoherentSearch
+from iconjax.search.config import SearchConfig
+from iconjax.search.cost import measure_motion
+from iconjax.search.setup import Setup, prepare
+from iconjax.search.types import ConstraintReport, RelationReport, SearchOutcome
+
+TOLERANCE_PX, TOLERANCE_DEG, TOLERANCE_RATIO = 0.01, 2.0, 0.01
+"""A constraint is satisfied within 1 % of the picture's size, 2 degrees, or 0.01 for bare numbers (contract, section 8)."""
+
+
+def search_edit(
+    scene: Scene, program: Program, config: SearchConfig | None = None, registry: Registry | None = None
+) -> SearchOutcome:
+    """Find the transforms that meet `program` and leave `scene` coherent.
+
+    Raises:
+        ProgramError: the program does not type-check or is too large.
+        InputError: more segments than the solver can hold.
+    """
+    config = config or SearchConfig()
+    begin = time.perf_counter()
+    setup = prepare(scene, program, config, registry)
+    search = CoherentSearch(setup, config)
+    best = search.run()
+    n = len(scene.segments)
+    matrices = best.matrices.reshape(n, 2, 3).copy()
+    motion = measure_motion(best.matrices, setup.setting.facts.features)
+    names = scene.names
+    relations = tuple(
+        RelationReport(names[r.a], names[r.b], r.kind, r.scope, state)
+        for r, state in zip(setup.setting.relations, best.judgement.outcomes, strict=True)
+    )
+    return SearchOutcome(
+        matrices=matrices,
+        motion_states={s.id: motion_word(motion, i) for i, s in enumerate(scene.segments)},
+        relations=relations,
+        constraints=report_constraints(setup, best.primary),
+        score=best.cost,
+        trace=tuple(search.entries),
+        timings={
+            "compile": search.engine.compile_seconds,
+            "search": time.perf_counter() - begin - search.engine.compile_seconds,
+        },
+    )
+
+
+def motion_word(motion, i: int) -> str:  # type: ignore[no-untyped-def]
+    """The motion state that a result amounts to."""
+    if motion.shift[i] < 1e-6:
+        return "N"
+    scaled = np.abs(np.log(np.maximum(motion.scales[i], 1e-9))).max() > 1e-4
+    return "T" + ("R" if abs(motion.turn[i]) > 1e-3 else "") + ("S" if scaled else "")
+
+
+def report_constraints(setup: Setup, primary: Float[np.ndarray, " c"]) -> tuple[ConstraintReport, ...]:
+    """The violation of each primary constraint, in its own unit."""
+    size = setup.setting.size
+    out = []
+    for k, (call, unit) in enumerate(zip(setup.program.calls, setup.units, strict=True)):
+        if unit is None:
+            continue
+        parts = [primary[j] for j, owner in enumerate(setup.compiled.owner) if owner == k]
+        violation = float(np.linalg.norm(parts)) / pixels_per_unit(unit, size)
+        out.append(ConstraintReport(to_text(call), "primary", violation, unit.symbol, violation <= _tolerance(unit, size)))
+    return tuple(out)
+
+
+def _tolerance(unit: Unit, size: float) -> float:
+    if unit is Unit.ANGLE:
+        return TOLERANCE_DEG
+    if unit in (Unit.LENGTH, Unit.AREA):
+        return TOLERANCE_PX * size * (size / 4 if unit is Unit.AREA else 1.0)
+    return TOLERANCE_RATIO
+
+
+def satisfied(reports: Sequence[ConstraintReport]) -> bool:
+    """Whether every constraint holds."""
+    return all(r.satisfied for r in reports)

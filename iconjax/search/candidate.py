@@ -1,0 +1,123 @@
+"""From discrete states to the arrays of a solve."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from iconjax.relations.types import Relation
+from iconjax.search.facts import Facts
+from iconjax.search.intent import Intent
+from iconjax.search.state import State, scale_kind
+from iconjax.search.weights import Forces
+from iconjax.solve.arrays import Candidate
+from iconjax.solve.pose import Bodies
+
+
+@dataclass(frozen=True)
+class Sizes:
+    """Static sizes of a solve: everything is padded to these."""
+
+    segments: int
+    relations: int
+    alignments: int
+    bodies: int
+
+
+@dataclass(frozen=True)
+class Setting:
+    """What all candidates of an edit are made from."""
+
+    facts: Facts
+    relations: tuple[Relation, ...]
+    intent: Intent
+    forces: Forces
+    size: float
+
+
+def body_roots(state: State) -> tuple[int, ...]:
+    """The segments whose motion is free, one for each body."""
+    return tuple(i for i, m in enumerate(state.modes) if m != "N" and not m.startswith("W:"))
+
+
+def build_candidate(
+    setting: Setting, state: State, sizes: Sizes, start: Float[np.ndarray, "n 5"] | None = None
+) -> Candidate:
+    """The arrays for `state`; `start` gives parameters to begin with, by root segment."""
+    roots = body_roots(state)
+    where = {root: k for k, root in enumerate(roots)}
+    n = len(state.modes)
+    body = np.full(sizes.segments, sizes.bodies)
+    for i in range(n):
+        body[i] = where.get(state.root(i), sizes.bodies)
+    bodies = _bodies(setting, state, roots, sizes.bodies, start)
+    return Candidate(
+        body=body,
+        bodies=bodies,
+        **_relation_arrays(setting, state, body, sizes),
+        align=_alignment_weights(setting, state, sizes),
+        canvas=np.array(setting.forces.canvas),
+    )
+
+
+def members_of(state: State, root: int) -> tuple[int, ...]:
+    """All segments that move with `root`."""
+    return tuple(i for i in range(len(state.modes)) if state.root(i) == root)
+
+
+def _bodies(
+    setting: Setting, state: State, roots: Sequence[int], count: int, start: Float[np.ndarray, "n 5"] | None
+) -> Bodies:
+    facts, forces = setting.facts, setting.forces
+    centre, axis, radius = np.zeros((count, 2)), np.zeros(count), np.ones(count)
+    free, uniform = np.zeros((count, 5)), np.zeros(count)
+    inertia, sparsity, first = np.ones((count, 5)), np.zeros((count, 5)), np.zeros((count, 5))
+    for k, root in enumerate(roots):
+        members = [i for i in members_of(state, root) if facts.host[i] not in members_of(state, root)] or [root]
+        box = facts.features[members]
+        low, high = box[:, [0, 3]].min(0), box[:, [2, 5]].max(0)
+        centre[k] = (low + high) / 2
+        radius[k] = max(np.linalg.norm(high - low) / 2, 0.02 * setting.size)
+        mode = state.modes[root]
+        free[k], uniform[k] = _freedom(mode)
+        if scale_kind(mode) in ("Sl", "Ss"):
+            axis[k] = np.arctan2(facts.long_dir[root, 1], facts.long_dir[root, 0])
+        asked = {kind for t in setting.intent.things_of(root) for kind in t.kinds}
+        inertia[k], sparsity[k] = forces.body(asked, float(facts.area[members].sum()))
+        if start is not None:
+            first[k] = start[root]
+    return Bodies(centre, axis, radius, free, uniform, inertia, sparsity, first)
+
+
+def _freedom(mode: str) -> tuple[Float[np.ndarray, "5"], float]:
+    """Free degrees, and whether scaling is uniform; "Sl" and "Ss" scale in a frame along the long axis."""
+    kind = scale_kind(mode)
+    along_first, along_second = kind in ("Sx", "Sxy", "Su", "Sl"), kind in ("Sy", "Sxy", "Ss")
+    return np.array([1.0, 1.0, "R" in mode, along_first, along_second]), float(kind == "Su")
+
+
+def _relation_arrays(
+    setting: Setting, state: State, body: Float[np.ndarray, " n"], sizes: Sizes
+) -> dict[str, Float[np.ndarray, " e"]]:
+    hold, ends, slide = np.zeros(sizes.relations), np.zeros(sizes.relations), np.zeros(sizes.relations)
+    for e, r in enumerate(setting.relations):
+        status = state.relations.get(e, "ST")
+        if body[r.a] == body[r.b] or status == "N":
+            continue
+        hold[e] = setting.forces.hold(r)
+        ends[e] = setting.forces.ends(r)
+        slide[e] = status == "WK"
+    return {"hold": hold, "ends": ends, "slide": slide}
+
+
+def _alignment_weights(setting: Setting, state: State, sizes: Sizes) -> Float[np.ndarray, " f"]:
+    weights = np.zeros(sizes.alignments)
+    for f, a in enumerate(setting.facts.alignments[: sizes.alignments]):
+        asked = {kind for t in setting.intent.things_of(a.a) for kind in t.kinds}
+        if a.reason == "ground" and "rotate" in asked:
+            continue
+        weights[f] = setting.forces.align[a.reason]
+    return weights

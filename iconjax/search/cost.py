@@ -1,0 +1,195 @@
+"""The coherence cost of a solved candidate (contract, section 6): what following the request did to the picture."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from iconjax.search.candidate import Setting
+from iconjax.search.shapes import Shapes
+from iconjax.search.state import State, scale_kind
+from iconjax.search.weights import Costs
+from iconjax.relations.types import Relation
+
+STILL_PX = 0.35
+"""Motion of less than this many pixels (at 512 x 512) is none."""
+UNMET_PX = 0.4
+"""A primary residual above this many pixels is a constraint not met, inside the search."""
+
+
+@dataclass(frozen=True)
+class Motion:
+    """What transforms did to each segment.
+
+    Attributes:
+        shift: (n,) greatest displacement of a corner of its box, px.
+        turn: (n,) rotation, degrees clockwise.
+        scales: (n, 2) singular values of the linear part, larger first.
+        skew: (n,) greatest displacement that is not the effect of its best rigid motion, px.
+    """
+
+    shift: Float[np.ndarray, " n"]
+    turn: Float[np.ndarray, " n"]
+    scales: Float[np.ndarray, "n 2"]
+
+
+def measure_motion(matrices: Float[np.ndarray, "n 6"], features: Float[np.ndarray, "n 6"]) -> Motion:
+    """Measure the motion of every segment."""
+    m = matrices.reshape(-1, 2, 3)
+    x0, _, x1, y0, _, y1 = features.T
+    corners = np.stack([[x0, y0], [x1, y0], [x1, y1], [x0, y1]]).transpose(2, 0, 1)  # n 4 2
+    moved = np.einsum("nij,nkj->nki", m[:, :, :2], corners) + m[:, None, :, 2]
+    shift = np.linalg.norm(moved - corners, axis=-1).max(1)
+    turn = np.degrees(np.arctan2(m[:, 1, 0] - m[:, 0, 1], m[:, 0, 0] + m[:, 1, 1]))
+    scales = np.linalg.svd(m[:, :, :2], compute_uv=False)
+    return Motion(shift, turn, scales)
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """Cost of a candidate by term, and what became of each relation.
+
+    Attributes:
+        terms: cost by term; terms of zero are left out.
+        outcomes: for each relation "ST", "WK", "N" or "F" as the result has it.
+        strained: relations that cost something.
+        unmet: whether a primary constraint fails.
+    """
+
+    terms: dict[str, float]
+    outcomes: tuple[str, ...]
+    strained: tuple[int, ...]
+    unmet: bool
+
+    @property
+    def total(self) -> float:
+        """The cost."""
+        return sum(self.terms.values())
+
+
+class Judge:
+    """Judges candidates of one edit."""
+
+    def __init__(self, setting: Setting, shapes: Shapes, costs: Costs) -> None:
+        self.setting, self.shapes, self.costs = setting, shapes, costs
+        self.unit = setting.size / 512
+        self.asked = {
+            i: frozenset(k for t in setting.intent.things_of(i) for k in t.kinds)
+            for i in range(len(setting.facts.area))
+        }
+
+    def judge(
+        self, state: State, matrices: Float[np.ndarray, "n 6"], primary: Float[np.ndarray, " c"]
+    ) -> Judgement:
+        """Cost of the transforms `matrices` that a solve of `state` led to."""
+        terms: dict[str, float] = {}
+
+        def add(name: str, cost: float) -> None:
+            if cost > 0:
+                terms[name] = terms.get(name, 0.0) + cost
+
+        off = np.abs(primary)
+        unmet = bool((off > UNMET_PX * self.unit).any())
+        if unmet:
+            add("unmet", self.costs.unmet + self.costs.unmet_px * float(off[off > UNMET_PX * self.unit].sum()) / self.unit)
+        motion = measure_motion(matrices, self.setting.facts.features)
+        outcomes = [self._relation(e, r, matrices, motion, add) for e, r in enumerate(self.setting.relations)]
+        self._unasked(matrices, motion, add)
+        self._asked_parts(state, motion, add)
+        self._surroundings(matrices, motion, add)
+        strained = tuple(e for e, (_, cost) in enumerate(outcomes) if cost > 0.05)
+        return Judgement(terms, tuple(o for o, _ in outcomes), strained, unmet)
+
+    def _relation(self, e: int, r: Relation, matrices, motion, add) -> tuple[str, float]:  # type: ignore[no-untyped-def]
+        if np.allclose(matrices[r.a], matrices[r.b], atol=1e-6):
+            return "F" if motion.shift[r.a] > STILL_PX * self.unit else "ST", 0.0
+        slip = self.shapes.slip(r, matrices, motion.turn) / self.unit
+        kind = "near" if r.kind == "near" else "inside" if r.kind == "inside" else r.scope.replace("intra-crucial", "crucial")
+        if slip < 1.0:
+            return "ST", 0.0
+        loss = self.shapes.loss(r, matrices)
+        slide = self.costs.slid[kind] * min(1.0, slip / self.costs.slide_scale)
+        cost = slide + (self.costs.broken[kind] - slide) * loss if loss > 0 else slide
+        add("broken" if loss > 0.5 else "slid", cost)
+        return ("N" if loss > 0.5 else "WK" if slip > 4.0 else "ST"), cost
+
+    def _unasked(self, matrices, motion, add) -> None:  # type: ignore[no-untyped-def]
+        """Cost of every distinct motion that nobody asked for, once for all segments that share it."""
+        facts, costs = self.setting.facts, self.costs
+        asked_motions = [matrices[i] for i, kinds in self.asked.items() if kinds]
+        groups: list[tuple[Float[np.ndarray, "6"], list[int]]] = []
+        for i in np.flatnonzero(motion.shift > STILL_PX * self.unit):
+            if self.asked[int(i)]:
+                continue
+            for matrix, members in groups:
+                if np.allclose(matrix, matrices[i], atol=1e-3, rtol=0):
+                    members.append(int(i))
+                    break
+            else:
+                groups.append((matrices[i], [int(i)]))
+        for matrix, members in groups:
+            along = any(np.allclose(matrix, m, atol=1e-3, rtol=0) for m in asked_motions)
+            add("along" if along else "moved", costs.along if along else costs.moved)
+            for i in members:
+                if facts.host[i] in members:
+                    self._distorted(i, motion, add)
+                    continue
+                share = costs.moved_area * float(facts.area[i])
+                add("moved", share * (0.5 if along else 1.0) * min(1.0, motion.shift[i] / (20 * self.unit)))
+                if not along and abs(motion.turn[i]) > 0.3:
+                    add("turned", costs.turned * min(1.0, abs(motion.turn[i]) / 10))
+                self._distorted(i, motion, add)
+                if facts.grounded[i]:
+                    add("uprooted", costs.uprooted * min(1.0, motion.shift[i] / (20 * self.unit)))
+
+    def _distorted(self, i: int, motion: Motion, add) -> None:  # type: ignore[no-untyped-def]
+        stretch = float(np.abs(np.log(np.maximum(motion.scales[i], 1e-3))).max())
+        if stretch < 0.005:
+            return
+        detail = self.setting.facts.host[i] is not None
+        weight = self.costs.stretched * (0.15 if detail else 1.0)
+        add("stretched", weight * (0.3 + min(1.0, stretch)))
+        if self.setting.facts.round[i]:
+            ratio = float(motion.scales[i, 0] / max(motion.scales[i, 1], 1e-3))
+            add("squashed", self.costs.squashed * min(1.0, 3 * np.log(ratio)))
+
+    def _asked_parts(self, state: State, motion: Motion, add) -> None:  # type: ignore[no-untyped-def]
+        """Unasked kinds of motion of asked parts, and asked kinds that did not happen."""
+        for thing in self.setting.intent.things:
+            turn = np.abs(motion.turn[list(thing.members)])
+            stretch = np.abs(np.log(np.maximum(motion.scales[list(thing.members)], 1e-3))).max(1)
+            if "rotate" in thing.kinds and turn.max() < 1.0:
+                add("idle", self.costs.idle_specifier)
+            if "scale" in thing.kinds and stretch.max() < 0.01:
+                add("idle", self.costs.idle_specifier)
+            if "translate" in thing.kinds and motion.shift[list(thing.members)].max() < STILL_PX * self.unit:
+                add("idle", self.costs.idle_specifier / 4)
+        for i, kinds in self.asked.items():
+            if not kinds:
+                continue
+            if "rotate" not in kinds and abs(motion.turn[i]) > 0.3:
+                add("extra", self.costs.extra * min(1.0, 0.3 + abs(motion.turn[i]) / 10))
+            stretch_i = float(np.abs(np.log(np.maximum(motion.scales[i], 1e-3))).max())
+            if "scale" not in kinds and stretch_i > 0.005:
+                add("extra", self.costs.extra * min(1.0, 0.3 + stretch_i))
+            elif scale_kind(state.mode(i)) and stretch_i > 1.2:
+                add("extra", 0.5 * (stretch_i - 1.2))
+
+    def _surroundings(self, matrices, motion, add) -> None:  # type: ignore[no-untyped-def]
+        """Alignments lost, things pushed off the canvas, new overlaps."""
+        facts = self.setting.facts
+        features = self.shapes.features(matrices)
+        for a in facts.alignments:
+            still = a.b is None or np.allclose(matrices[a.a], matrices[a.b])
+            if still and (a.b is not None or motion.shift[a.a] < STILL_PX):
+                continue
+            before = facts.features[a.a, a.feature] - (0 if a.b is None else facts.features[a.b, a.feature])
+            after = features[a.a, a.feature] - (0 if a.b is None else features[a.b, a.feature])
+            off = abs(after - before) / self.unit
+            if off > 1.5:
+                add("misaligned", self.costs.misaligned[a.reason] * min(1.0, off / 15))
+        add("off canvas", self.costs.off_canvas * self.shapes.off_canvas(features))
+        moved = np.flatnonzero(motion.shift > STILL_PX * self.unit)
+        add("collision", self.costs.collision * self.shapes.collisions(matrices, features, moved))

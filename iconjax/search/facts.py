@@ -1,0 +1,113 @@
+"""Facts about a scene that the search weighs: sizes, details, what stands on the ground, what is aligned."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from iconjax.relations.types import Relation
+from iconjax.scene.sampling import elongation, principal_axis
+from iconjax.scene.types import Scene
+
+ALIGNED = 0.005
+"""Box features that differ by less than this share of the picture's larger side count as aligned."""
+GROUND = 0.03
+"""A segment stands on the ground when its lower edge is within this share of the picture's lowest one."""
+
+
+@dataclass(frozen=True)
+class Alignment:
+    """Two box features that coincide; `b` None: a feature that should keep its place.
+
+    Attributes:
+        a, b: segments.
+        feature: 0..5 for min x, centre x, max x, min y, centre y, max y.
+        reason: "touching", "siblings" or "ground".
+    """
+
+    a: int
+    b: int | None
+    feature: int
+    reason: str
+
+
+@dataclass(frozen=True)
+class Facts:
+    """What the search needs to know about the unedited scene, by position of the segment.
+
+    Attributes:
+        features: (n, 6) box features, px.
+        area: (n,) share of each segment in the area of all.
+        round: segments that look like discs, for which a change of proportions shows most.
+        elongated: ratio of the principal extents.
+        long_dir: (n, 2) principal axis of each, unit vectors.
+        host: the segment that each detail lies in or on, None where it is no detail.
+        grounded: segments that stand on the ground.
+        alignments: features that coincide.
+    """
+
+    features: Float[np.ndarray, "n 6"]
+    area: Float[np.ndarray, " n"]
+    round: Bool[np.ndarray, " n"]
+    elongated: Float[np.ndarray, " n"]
+    long_dir: Float[np.ndarray, "n 2"]
+    host: tuple[int | None, ...]
+    grounded: Bool[np.ndarray, " n"]
+    alignments: tuple[Alignment, ...]
+
+
+def gather_facts(scene: Scene, relations: Sequence[Relation]) -> Facts:
+    """Measure `scene`."""
+    boxes = np.array([s.box for s in scene.segments])
+    x0, y0, x1, y1 = boxes.T
+    features = np.stack([x0, (x0 + x1) / 2, x1, y0, (y0 + y1) / 2, y1], 1)
+    area = np.array([s.area for s in scene.segments])
+    disc = np.pi / 4 * (x1 - x0) * (y1 - y0)
+    square = np.minimum(x1 - x0, y1 - y0) / np.maximum(np.maximum(x1 - x0, y1 - y0), 1e-9)
+    grounded = y1 >= y1.max() - GROUND * scene.size
+    host = _hosts(scene, relations)
+    return Facts(
+        features=features,
+        area=area / area.sum(),
+        round=(square > 0.88) & (np.abs(area / np.maximum(disc, 1e-9) - 1) < 0.1),
+        elongated=np.array([elongation(s.loops) for s in scene.segments]),
+        long_dir=np.array([principal_axis(s.loops) for s in scene.segments]),
+        host=host,
+        grounded=grounded,
+        alignments=_alignments(scene, relations, features, grounded),
+    )
+
+
+def _hosts(scene: Scene, relations: Sequence[Relation]) -> tuple[int | None, ...]:
+    host: list[int | None] = [None] * len(scene.segments)
+    for r in relations:
+        if r.kind == "inside" and r.embedded:
+            best = host[r.a]
+            if best is None or scene.segments[r.b].area < scene.segments[best].area:
+                host[r.a] = r.b
+    return tuple(host)
+
+
+def _alignments(
+    scene: Scene, relations: Sequence[Relation], features: Float[np.ndarray, "n 6"], grounded: Bool[np.ndarray, " n"]
+) -> tuple[Alignment, ...]:
+    limit = ALIGNED * scene.size
+    found = [Alignment(int(i), None, 5, "ground") for i in np.flatnonzero(grounded)]
+    linked = {(r.a, r.b) for r in relations if r.kind != "near"}
+    for a, b in sorted(linked):
+        for f in np.flatnonzero(np.abs(features[a] - features[b]) <= limit):
+            found.append(Alignment(a, b, int(f), "touching"))
+    size = features[:, [2, 5]] - features[:, [0, 3]]
+    for a in range(len(features)):
+        for b in range(a + 1, len(features)):
+            alike = np.all(np.abs(size[a] - size[b]) <= 0.06 * np.maximum(size[a], size[b]) + 1)
+            same = scene.segments[a].object == scene.segments[b].object
+            if not (alike and same) or (a, b) in linked or (b, a) in linked:
+                continue
+            for f in (1, 4):
+                if abs(features[a, f] - features[b, f]) <= limit:
+                    found.append(Alignment(a, b, f, "siblings"))
+    return tuple(found)

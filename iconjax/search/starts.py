@@ -1,0 +1,153 @@
+"""Where the default search begins: what was asked moves, what hangs on it follows, the rest stays."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import product
+
+import networkx as nx
+
+from iconjax.relations.types import Relation
+from iconjax.search.candidate import Setting
+from iconjax.search.facts import Facts
+from iconjax.search.intent import Intent, Thing
+from iconjax.search.state import Mode, State, scale_kind
+
+ELONGATED = 3.0
+"""From this ratio of its extents on, a segment told to change size without more ado does so along its long axis."""
+MOST = 64
+"""Most states that a search begins with."""
+
+
+def asked_mode(facts: Facts, things: Sequence[Thing], leader: int, alone: bool) -> Mode:
+    """The freedoms that the things a segment belongs to ask for."""
+    kinds = {k for t in things for k in t.kinds}
+    mode = "TR" if "rotate" in kinds else "T"
+    if "scale" not in kinds:
+        return mode
+    extents = {e for t in things if "scale" in t.kinds for e in t.extents}
+    slim = alone and facts.elongated[leader] >= ELONGATED
+    oblique = min(abs(facts.long_dir[leader])) > 0.1
+    if "uniform" in extents:
+        return mode + "Su"
+    if extents & {"long", "own x", "own y"} or (slim and (oblique and len(extents & {"x", "y"}) == 1)):
+        return mode + "Sl"
+    if "short" in extents:
+        return mode + "Ss"
+    if {"x", "y"} <= extents:
+        return mode + "Sxy"
+    if extents & {"x", "y"}:
+        return mode + ("Sx" if "x" in extents else "Sy")
+    return mode + ("Sl" if slim else "Su")
+
+
+def links(relations: Sequence[Relation], nodes: Sequence[int] | set[int]) -> nx.Graph:
+    """The relation graph among some segments."""
+    graph = nx.Graph()
+    graph.add_nodes_from(nodes)
+    graph.add_edges_from((r.a, r.b) for r in relations if r.a in graph and r.b in graph)
+    return graph
+
+
+def asked_state(setting: Setting) -> State:
+    """Only what the request names is free, in the ways it asks; details go with their hosts."""
+    facts, intent = setting.facts, setting.intent
+    n = len(facts.area)
+    modes = ["N"] * n
+    asked = {i for t in intent.things for i in t.members}
+    for i, host in enumerate(facts.host):
+        if host is not None and i not in intent.fixed and i not in {m for t in intent.things if len(t.members) == 1 for m in t.members}:
+            modes[i] = f"W:{host}" if i not in asked or host in asked else "N"
+    for thing in sorted(intent.things, key=lambda t: -len(t.members)):
+        rest = [i for i in thing.members if intent.things_of(i)[0] == thing and not modes[i].startswith("W:")]
+        if len(rest) == len([i for i in thing.members if not modes[i].startswith("W:")]):
+            groups = [set(rest)] if rest else []
+        else:
+            groups = [set(g) for g in nx.connected_components(links(setting.relations, rest))]
+        for group in groups:
+            leader = max(group, key=lambda i: facts.area[i])
+            modes[leader] = asked_mode(facts, intent.things_of(leader), leader, len(group) == 1)
+            for i in group - {leader}:
+                modes[i] = f"W:{leader}"
+    for group in intent.together:
+        free = [i for i in group if i not in intent.fixed]
+        leader = next((i for i in free if modes[i] not in ("N",) and not modes[i].startswith("W:")), free[0] if free else None)
+        for i in free:
+            if i != leader:
+                modes[i] = f"W:{leader}"
+    return State(tuple(modes), {}, "only what was asked")
+
+
+def hanging(setting: Setting, base: State) -> list[set[int]]:
+    """Connected sets of unasked segments that hang on something asked, the largest first."""
+    intent = setting.intent
+    asked = {i for t in intent.things for i in t.members}
+    idle = {i for i, m in enumerate(base.modes) if m == "N" and i not in intent.fixed and i not in asked}
+    moving = {i for i in range(len(base.modes)) if base.mode(i) != "N"}
+    sets = []
+    for group in nx.connected_components(links(setting.relations, idle)):
+        if neighbours(setting.relations, group) & moving or group & intent.mentioned:
+            sets.append(set(group))
+    return sorted(sets, key=lambda g: -sum(setting.facts.area[i] for i in g))
+
+
+def neighbours(relations: Sequence[Relation], group: set[int]) -> set[int]:
+    """Segments outside `group` that are related to one in it."""
+    near = {r.b for r in relations if r.a in group} | {r.a for r in relations if r.b in group}
+    return near - group
+
+
+def group_modes(group: set[int], leader: int, mode: Mode) -> dict[int, Mode]:
+    """Changes that make a set of segments move as one."""
+    return {i: (mode if i == leader else "N" if mode == "N" else f"W:{leader}") for i in group}
+
+
+def options(setting: Setting, base: State, group: set[int]) -> list[dict[int, Mode]]:
+    """Ways in which a hanging set may follow: going along, by itself, stretching, or not at all; likeliest first."""
+    leader = max(group, key=lambda i: setting.facts.area[i])
+    touched = sorted(i for i in neighbours(setting.relations, group) if base.mode(i) != "N")
+    roots = sorted({base.root(i) for i in touched})
+    rigid = [r for r in roots if not scale_kind(base.modes[r])]
+    out = [{i: f"W:{r}" for i in group} for r in rigid]
+    out.append(group_modes(group, leader, "T"))
+    if any("R" in base.mode(i) for i in touched):
+        out.append(group_modes(group, leader, "TR"))
+    out.append(group_modes(group, leader, "N"))
+    if len(group) == 1:
+        out += [{leader: f"W:{r}"} for r in roots if r not in rigid]
+        out += [group_modes(group, leader, m) for m in ("TSx", "TSy")]
+    return out
+
+
+def initial_states(setting: Setting) -> list[State]:
+    """The states to begin with: all combinations of how hanging sets follow where they are few, else variations of the
+    likeliest combination and of nothing following."""
+    base = asked_state(setting)
+    sets = hanging(setting, base)
+    ways = [options(setting, base, g) for g in sets]
+    states = [base]
+    count = 1
+    for w in ways:
+        count *= len(w)
+    if count <= MOST:
+        for combination in product(*ways):
+            states.append(_merge(base, combination, "combination of ways to follow"))
+        return _unique(states)
+    likely = [w[0] for w in ways]
+    states.append(_merge(base, likely, "everything follows"))
+    for k, w in enumerate(ways):
+        for way in w[1:]:
+            states.append(_merge(base, [*likely[:k], way, *likely[k + 1 :]], "everything follows but one"))
+        states.append(_merge(base, [w[0]], "one set follows"))
+    return _unique(states)[:MOST]
+
+
+def _merge(base: State, changes: Sequence[dict[int, Mode]], origin: str) -> State:
+    merged: dict[int, Mode] = {}
+    for c in changes:
+        merged.update(c)
+    return base.with_modes(merged, origin)
+
+
+def _unique(states: Sequence[State]) -> list[State]:
+    return list({s.key: s for s in reversed(states)}.values())[::-1]

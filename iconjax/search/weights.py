@@ -1,0 +1,116 @@
+"""The two tables of weights of the default search: forces inside a solve, costs between candidates.
+
+Chosen by experiment, see `docs/search.md`; the script is `eval/tune.py`. Lengths are in pixels at 512 x 512.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Set
+from dataclasses import dataclass, field
+
+import numpy as np
+from jaxtyping import Float
+
+from iconjax.relations.types import Relation
+
+
+@dataclass(frozen=True)
+class Forces:
+    """Pulls inside one solve (weight of an absolute residual, per pixel).
+
+    Attributes:
+        crucial, intra, inter, inside, near: holding the meeting point of a relation, by type.
+        middle, end: shares of these that hold the middle and each end of a contact: a follower turns or stretches along
+            where it may, and slides as a whole where it may not.
+        align: keeping an alignment, by its reason.
+        canvas: staying in the picture.
+        idle: unasked motion of a part: translation, rotation, scaling.
+        inertia: weight of half the squared parameter of what was asked to move.
+    """
+
+    crucial: float = 20.0
+    intra: float = 8.0
+    inter: float = 8.0
+    inside: float = 12.0
+    near: float = 2.0
+    middle: float = 0.34
+    end: float = 0.33
+    align: Mapping[str, float] = field(
+        default_factory=lambda: {"touching": 8.0, "siblings": 2.0, "ground": 4.0}
+    )
+    canvas: float = 30.0
+    idle: tuple[float, float, float] = (0.2, 0.4, 0.8)
+    inertia: float = 1e-3
+
+    def hold(self, r: Relation) -> float:
+        """Force that holds the meeting point of a relation."""
+        return self.middle * self.strength(r)
+
+    def strength(self, r: Relation) -> float:
+        """Force that holds a relation."""
+        if r.kind == "near":
+            return self.near
+        if r.kind == "inside":
+            return self.inside
+        return {"intra-crucial": self.crucial, "intra": self.intra, "inter": self.inter}[r.scope]
+
+    def ends(self, r: Relation) -> float:
+        """Force that holds each end of a contact."""
+        return self.end * self.strength(r) * (0.2 if r.kind == "near" else 1.0)
+
+    def body(self, asked: Set[str], area: float) -> tuple[Float[np.ndarray, "5"], Float[np.ndarray, "5"]]:
+        """Inertia and sparsity of a body, given the kinds of motion asked of it and its share of the area."""
+        move, turn, scale = (w * (1 + 4 * area) for w in self.idle)
+        sparsity = np.array([move, move, turn, scale, scale])
+        if asked:  # whatever turns or changes size may have to shift for it
+            sparsity[:2] = 0.0
+        if "rotate" in asked:
+            sparsity[2] = 0.0
+        if "scale" in asked:
+            sparsity[3:] = 0.0
+        return np.full(5, self.inertia), sparsity
+
+
+@dataclass(frozen=True)
+class Costs:
+    """Costs between candidates; the cheapest one that meets every primary constraint wins.
+
+    Attributes:
+        unmet: a primary constraint that fails, plus `unmet_px` for each pixel it is off.
+        broken: a relation that no longer holds, by type.
+        slid: a relation that still holds but whose meeting point slid by `slide_scale` or more, by type (in proportion
+            below that).
+        moved: another set of parts that moves in a way of its own though nobody asked, plus `moved_area` times its area.
+        along: the same where it goes along with something that was asked to move.
+        turned, stretched: added where it turns or changes size; `squashed` where a disc loses its shape.
+        uprooted: something that stood on the ground leaves it.
+        extra: an unasked kind of motion of an asked part.
+        idle_specifier: a kind of motion that was asked and did not happen.
+        misaligned: an alignment lost, by its reason.
+        off_canvas: per share of a segment's box outside the picture.
+        collision: a new overlap of things that were apart, per share of the smaller.
+    """
+
+    unmet: float = 1000.0
+    unmet_px: float = 10.0
+    broken: Mapping[str, float] = field(
+        default_factory=lambda: {"crucial": 12.0, "intra": 4.0, "inter": 4.0, "inside": 8.0, "near": 1.5}
+    )
+    slid: Mapping[str, float] = field(
+        default_factory=lambda: {"crucial": 6.0, "intra": 1.5, "inter": 1.0, "inside": 3.0, "near": 1.5}
+    )
+    slide_scale: float = 50.0
+    moved: float = 1.0
+    moved_area: float = 3.0
+    along: float = 0.3
+    turned: float = 1.5
+    stretched: float = 3.0
+    squashed: float = 2.0
+    uprooted: float = 3.0
+    extra: float = 3.0
+    idle_specifier: float = 8.0
+    misaligned: Mapping[str, float] = field(
+        default_factory=lambda: {"touching": 0.3, "siblings": 0.5, "ground": 0.5}
+    )
+    off_canvas: float = 20.0
+    collision: float = 2.0
