@@ -22,7 +22,7 @@ from iconjax.language.offline import OfflineTranslator
         ("house", "resize the tree", "how much"),
         ("house", "shrink the tree by 100%", "leave nothing"),
         ("house", "stretch the tree by 20%", "which way"),
-        ("house", "make the door 20 px higher", "may mean"),
+        ("house", "make the door 20 px higher", "may be"),
         ("house", "make the house's crown 20% wider", "crown"),
         ("house", "move the tree behind the house", "in front or behind"),
         ("house", "paint the door", "colours"),

@@ -32,6 +32,6 @@ class Translator(Protocol):
         """Read `request` against `scene`.
 
         Raises:
-            TranslationError: the request was not understood; the message says what was, and which names exist.
+            TranslationError: the request is not understood; the message says what was, and which names exist.
         """
         ...

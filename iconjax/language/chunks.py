@@ -94,6 +94,8 @@ def _next(
     lexical = _lexical(words, i, previous, lexicon, phrases)
     reach = lexical[1] if lexical is not None else i
     amount = quantities.amount(i)
+    if amount is None and previous in ("mode", "phrase"):
+        amount = quantities.doubled(i)
     if (
         amount is not None
         and amount[1] >= reach
@@ -138,7 +140,7 @@ def _next(
 def _lexical(
     words: Sequence[str], i: int, previous: str, lexicon: Lexicon, phrases: PhraseReader
 ) -> tuple[Entry, int] | None:
-    """The longest lexical reading; among equals a verb wins where a clause begins, else CATEGORIES decides."""
+    """The longest lexical reading; among equals a verb wins where a clause begins, else CATEGORIES."""
     best: tuple[Entry, int] | None = None
     order = [c for c in CATEGORIES if c != "verb"]
     opening = previous in OPENERS or not lexicon.knows(words[i], set(order) - {"side", "places"})
@@ -161,7 +163,7 @@ def _lexical(
 
 
 def _announces(words: Sequence[str], end: int, lexicon: Lexicon, phrases: PhraseReader) -> bool:
-    """Whether what looks like a direction goes on to name something: "to the left | leg", "to the right | edge"."""
+    """Whether what looks like a direction goes on to name something: "to the left | leg"."""
     if not lexicon.knows(words[end - 1], {"modifier"}):
         return False
     if words[end : end + 1] == ["of"] and words[end - 1] in ("top", "bottom"):

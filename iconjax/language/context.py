@@ -69,6 +69,8 @@ class Context:
             if bare and index + 1 < len(phrases):
                 phrase = replace(phrase, nouns=phrases[-1].nouns, owner=phrase.owner or phrases[-1].owner)
             found.append(self.one(phrase, theme, relation))
+        if found[0].side and phrases[0].text.split(" of ")[0].endswith("s"):
+            found = [replace(f, side=found[0].side) for f in found]  # "the tops of A and B"
         sides = {f.side for f in found}
         if len(sides) > 1:
             raise TranslationError("a side of one thing and the whole of another cannot be told of together")

@@ -42,7 +42,7 @@ def sense(out: Collector, name: str, clause: Clause) -> int:
         cross = (tx - px) * (y - py) - (ty - py) * (x - px)
         if abs(cross) < 1e-3 * out.shapes.scene.size**2:
             raise TranslationError(
-                f'which way is {direction} "{clause.reference[0]}" is not clear: say clockwise or counter-clockwise'
+                f'which way is {direction} "{clause.reference[0]}" is not clear: say clockwise or not'
             )
         return (1 if cross > 0 else -1) * (1 if direction == "away" else -1)
     return 0

@@ -156,7 +156,7 @@ class Names:
         return names
 
     def members_if_collection(self, name: str) -> tuple[str, ...]:
-        """The parts of an object that is a collection ("Candles:Left", "Candles:Right"), or the name alone."""
+        """The parts of an object that is a collection ("Candles:Left", "Candles:Right"), or its name."""
         parts = [e for e in self.parts if self.scene.segments[self.scene.members(e.name)[0]].object == name]
         collective = self.lexicon.singular(name.lower().split()[-1]) != name.lower().split()[-1]
         telling = {"modifier", "ordinal", "number"}

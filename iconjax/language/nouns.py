@@ -130,7 +130,7 @@ class NounReader:
         return () if known or not word.isalpha() else (word,)
 
     def _elliptical(self, i: int) -> bool:
-        """ "the first | and the last candle", "the left | and the right window", "on the second" at the end."""
+        """ "the first | and the last candle", "the left | and the right window", "on the second"."""
         if self.lexicon.knows(self.word(i), {"ordinal"}) and self.word(i + 1) in ("", ".", ";", ","):
             return True
         if not self.lexicon.knows(self.word(i), {"ordinal", "modifier"}) or self.word(i + 1) != "and":

@@ -49,6 +49,7 @@ class OfflineTranslator:
                     f"no meaning for {', '.join(repr(u) for u in unknown)}" if chunks else "it is empty"
                 )
             clauses = self._read(chunks, words, names, understood)
+            _check_guesses(clauses)
             program = emit(clauses, names.shapes)
             if not any(
                 c.action not in ("keep", "stay", "topic", "together", "hinge", "go", "turn", "resize")
@@ -95,6 +96,15 @@ class OfflineTranslator:
                 if failure is None or len(done) > len(understood):
                     failure, understood[:] = error, [describe(c) for c in done]
         raise failure or TranslationError("it is empty")
+
+
+def _check_guesses(clauses: Sequence[Clause]) -> None:
+    """An amount is not guessed where another clause may give it: "raise A and lower B by 10 px"."""
+    unsaid = [c for c in clauses if c.amount is not None and c.amount.mode == "unsaid"]
+    told = {c.action for c in clauses if c.amount is not None and not c.amount.vague}
+    for clause in unsaid:
+        if clause.action in told:
+            raise TranslationError(f"how much {' and '.join(clause.theme)} should change is not said")
 
 
 def _groupings(chunks: Sequence[Chunk]) -> Iterator[list[Item]]:

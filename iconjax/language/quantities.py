@@ -95,6 +95,14 @@ class QuantityReader:
             return Amount(float(multiple[0].value), "times"), multiple[1]
         return self._fraction(i) or self._counted(i)
 
+    def doubled(self, i: int) -> tuple[Amount, int] | None:
+        """ "(to) double its height", "(make it) triple the width of the door"."""
+        got = self.lexicon.match([self.phrases.word(i)], 0, "verb")
+        measure = self.measure(i + 1) if got is not None and float(got[0].info.get("factor", 0)) > 1 else None
+        if got is None or measure is None or got[0].info["base"] != self.words[i]:
+            return None
+        return Amount(float(got[0].info["factor"]), "times", of=measure[0]), measure[1]
+
     def _fraction(self, i: int) -> tuple[Amount, int] | None:
         start, top = i, 1.0
         if self.phrases.word(i) in ("a", "an", "one", "the"):
@@ -177,7 +185,7 @@ class QuantityReader:
         end = first[1]
         while self.phrases.word(end) == "and":
             more = self.phrases.read(end + 1)
-            if more is None or more[0].plural != first[0].plural or self.amount(more[1]) is not None:
+            if more is None or self.lexicon.match(self.words, more[1], "verb") is not None:
                 break
             owners.append(more[0])
             end = more[1]

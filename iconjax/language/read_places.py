@@ -70,7 +70,7 @@ def _distances(
     if relations or followed(slots):
         yield from (moved(context, names, s, s.amount, together) for s in measured)
     elif not measured:
-        some = Amount(0.3, "ratio", vague=True)
+        some = Amount(0.3, "ratio", "unsaid", vague=True)
         yield from (Clause("move", names, some, direction=s.direction, manner=together) for s in shifts)
     else:
         yield from (moved(context, names, s, s.amount or shifts[-1].amount, together) for s in shifts)

@@ -40,6 +40,8 @@ def scale(context: Context, slots: Slots, theme: Reference) -> Iterator[Clause]:
 
 def pin(context: Context, slots: Slots, info: dict[str, object]) -> str:
     """A direction with a verb of size says which side gives: "stretch to the right" keeps the left side."""
+    if info.get("base") in ("scale", "resize", "rescale", "size"):
+        _scaled_up_or_down(slots, info)
     side = ""
     for shift in slots.shifts:
         if "move" in slots.kinds() and any(c.amount for c in slots.changes):
@@ -69,13 +71,19 @@ def pin(context: Context, slots: Slots, info: dict[str, object]) -> str:
         "thin down",
     ):
         side = side or "bottom"
-    if side == "bottom" and info.get("base") in ("scale", "size"):
-        info["sign"] = -1
-        return ""
-    if side == "top" and info.get("base") in ("scale", "size"):
-        info["sign"] = -1
-        return ""
     return side
+
+
+def _scaled_up_or_down(slots: Slots, info: dict[str, object]) -> None:
+    """ "Scale it up by 10 %": here up and down say larger and smaller."""
+    for shift in [s for s in slots.shifts if s.direction in ("up", "down")]:
+        info["sign"] = 1 if shift.direction == "up" else -1
+        slots.shifts = [s for s in slots.shifts if s is not shift]
+        waiting = next((c for c in slots.changes if c.amount is None), None)
+        if shift.amount is not None and waiting is not None:
+            waiting.amount = shift.amount
+        elif shift.amount is not None:
+            slots.amount = slots.amount or shift.amount
 
 
 def default_dim(context: Context, slots: Slots, info: dict[str, object], pinned: str) -> str:
@@ -144,7 +152,7 @@ def vague(sign: int, change: Change, theme: Reference, slots: Slots) -> Amount:
         raise TranslationError(
             f'how much {listed(theme.names)} should change is not said: add e.g. "by 20 %" or "to half"'
         )
-    return Amount(0.3, "ratio", vague=True)
+    return Amount(0.3, "ratio", "unsaid", vague=True)
 
 
 def factor(amount: Amount | None, sign: int, change: Change, compared: bool) -> Amount:
@@ -163,7 +171,7 @@ def factor(amount: Amount | None, sign: int, change: Change, compared: bool) -> 
         value = _share(amount, sign, change, compared)
     if value <= 0.01:
         raise TranslationError(f"a change by {100 * amount.value:g} % would leave nothing")
-    return Amount(round(value, 4), "factor", vague=amount.vague)
+    return Amount(round(value, 4), "factor", amount.mode, vague=amount.vague)
 
 
 def _length(amount: Amount, sign: int, change: Change) -> Amount:

@@ -97,7 +97,8 @@ def _by_angle(slots: Slots, names: tuple[str, ...], amount: Amount | None, direc
             f'how far {listed(names)} should turn is not said: add an angle, e.g. "by 30 degrees clockwise"'
         )
     degrees = 30.0 if amount is None else 10.0 if amount.value < 0.3 else 45.0
-    return Clause("rotate", names, Amount(degrees, "deg", vague=True), direction=direction)
+    said = Amount(degrees, "deg", "" if amount is not None else "unsaid", vague=True)
+    return Clause("rotate", names, said, direction=direction)
 
 
 def hinge(context: Context, relation: Relation, names: tuple[str, ...]) -> Clause:

@@ -141,7 +141,7 @@ class Reader:
             if "move" in kinds or not relative:
                 if "move" not in kinds:
                     raise TranslationError(
-                        f'"{change.ambiguous}" may mean a place or a height: say move ... up or make ... taller'
+                        f'"{change.ambiguous}" may be a place or a height: say move ... up or make ... taller'
                     )
                 slots.changes.remove(change)
                 slots.shifts.append(Shift("up" if change.ambiguous == "higher" else "down", change.amount))
@@ -150,7 +150,7 @@ class Reader:
         return bool(slots.changes or slots.shifts or slots.relations)
 
     def _described(self, slots: Slots, theme: Reference) -> Iterator[Clause]:
-        """Take out relations that only describe: "move the cup on the table left", "touches the water in the tub"."""
+        """Take out relations that only describe: "move the cup on the table left"."""
         shapes = self.context.names.shapes
         goals = bool(
             [s for s in slots.shifts if s.amount]

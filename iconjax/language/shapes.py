@@ -61,7 +61,7 @@ class Shapes:
     def extent(self, name: str, dim: str) -> str:
         """The attribute that an everyday dimension means for this thing, e.g. "vert_len".
 
-        `dim` is vert, hori, length, thick, or short (as in "shorter": height of what stands, length of what lies).
+        `dim` is vert, hori, length, thick, or short ("shorter": the height of what stands).
         """
         if dim in ("vert", "hori"):
             return f"{dim}_len"

@@ -48,7 +48,7 @@ def split_hyphens(words: Iterable[str], known: Iterable[str]) -> list[str]:
 
 
 def mend(word: str, known: Iterable[str]) -> str | None:
-    """The one known word that `word` is a slip of the keyboard away from; None where there is not exactly one.
+    """The one known word that `word` is a slip of the keyboard away from; None if not exactly one.
 
     A slip is a letter left out, put in or swapped with its neighbour; a wrong letter counts in longer words
     only, because short words that differ by a letter are more often different words.

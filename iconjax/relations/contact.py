@@ -50,7 +50,25 @@ def find_contact(a: Border, b: Border, reach: float, slack: float) -> Contact | 
     near_b = np.isfinite(back)
     pairs_a = np.concatenate([pairs_a, a.points[back_index[near_b]]])
     pairs_b = np.concatenate([pairs_b, b.points[near_b]])
-    return _describe(pairs_a, pairs_b, max(0.0, least - 1.0), float(near_a.mean()), float(near_b.mean()))
+    share, share_b = float(near_a.mean()), float(near_b.mean())
+    pairs_a, pairs_b = _resting(pairs_a, pairs_b)
+    return _describe(pairs_a, pairs_b, max(0.0, least - 1.0), share, share_b)
+
+
+def _resting(
+    pairs_a: Float[np.ndarray, "m 2"], pairs_b: Float[np.ndarray, "m 2"]
+) -> tuple[Float[np.ndarray, "k 2"], Float[np.ndarray, "k 2"]]:
+    """Where one side rests on the other, the contact is there: not where it also laps around the flanks."""
+    across = pairs_b - pairs_a
+    upright = np.abs(across[:, 1]) > np.abs(across[:, 0])
+    if upright.mean() < 0.25 or upright.all():
+        return pairs_a, pairs_b
+    down = across[:, 1] > 0
+    share = down[upright].mean()
+    if 0.3 < share < 0.7:
+        return pairs_a, pairs_b
+    rests = upright & (down == (share > 0.5))
+    return pairs_a[rests], pairs_b[rests]
 
 
 def _describe(

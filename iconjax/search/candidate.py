@@ -36,6 +36,17 @@ class Setting:
     intent: Intent
     forces: Forces
     size: float
+    objects: tuple[str, ...]
+
+    def object_pair(self, r: Relation) -> tuple[str, str] | None:
+        """The two objects that a relation connects; None within one object."""
+        a, b = sorted((self.objects[r.a], self.objects[r.b]))
+        return (a, b) if a != b else None
+
+    def companions(self, r: Relation) -> int:
+        """How many relations connect the same two objects; 1 within one object."""
+        pair = self.object_pair(r)
+        return sum(self.object_pair(q) == pair for q in self.relations) if pair else 1
 
 
 def body_roots(state: State) -> tuple[int, ...]:
@@ -86,10 +97,19 @@ def _bodies(
         if scale_kind(mode) in ("Sl", "Ss"):
             axis[k] = np.arctan2(facts.long_dir[root, 1], facts.long_dir[root, 0])
         asked = {kind for t in setting.intent.things_of(root) for kind in t.kinds}
-        inertia[k], sparsity[k] = forces.body(asked, float(facts.area[members].sum()))
+        spins = asked == {"rotate"} and _disc(facts, members)
+        inertia[k], sparsity[k] = forces.body(asked, float(facts.area[members].sum()), spins)
         if start is not None:
             first[k] = start[root]
     return Bodies(centre, axis, radius, free, uniform, inertia, sparsity, first)
+
+
+def _disc(facts: Facts, members: Sequence[int]) -> bool:
+    """Whether a body as a whole is a disc: its largest round segment fills its box."""
+    box = facts.features[list(members)]
+    extent = box[:, [2, 5]].max(0) - box[:, [0, 3]].min(0)
+    own = box[:, [2, 5]] - box[:, [0, 3]]
+    return bool((facts.round[list(members)] & (own >= 0.9 * extent).all(1)).any())
 
 
 def _freedom(mode: str) -> tuple[Float[np.ndarray, "5"], float]:
@@ -107,10 +127,19 @@ def _relation_arrays(
         status = state.relations.get(e, "ST")
         if body[r.a] == body[r.b] or status == "N":
             continue
-        hold[e] = setting.forces.hold(r)
-        ends[e] = setting.forces.ends(r)
+        share = 1 / setting.companions(r)
+        hold[e] = share * setting.forces.hold(r)
+        ends[e] = 0.0 if _hinged(setting, body, r, sizes.bodies) else share * setting.forces.ends(r)
         slide[e] = status == "WK"
     return {"hold": hold, "ends": ends, "slide": slide}
+
+
+def _hinged(setting: Setting, body: Float[np.ndarray, " n"], r: Relation, still: int) -> bool:
+    """Whether one side was asked to turn while the other stays: then only the middle of their contact is to hold."""
+    return any(
+        body[other] == still and any("rotate" in t.kinds for t in setting.intent.things_of(one))
+        for one, other in ((r.a, r.b), (r.b, r.a))
+    )
 
 
 def _alignment_weights(setting: Setting, state: State, sizes: Sizes) -> Float[np.ndarray, " f"]:
@@ -120,4 +149,6 @@ def _alignment_weights(setting: Setting, state: State, sizes: Sizes) -> Float[np
         if a.reason == "ground" and "rotate" in asked:
             continue
         weights[f] = setting.forces.align[a.reason]
+        if a.reason == "ground" and "translate" in asked:
+            weights[f] *= setting.forces.asked_ground
     return weights

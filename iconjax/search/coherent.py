@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from itertools import product
 
 import numpy as np
 from jaxtyping import Float
@@ -90,9 +91,10 @@ class CoherentSearch:
         turning = [r for r in roots if "R" in state.modes[r]]
         if turning:
             features = self.setup.setting.facts.features
-            for sign in (1.0, -1.0):
+            for signs in product((1.0, -1.0), repeat=min(len(turning), 3)):
                 z = np.zeros((n, 5))
-                for r in turning:
+                for k, r in enumerate(turning):
+                    sign = signs[k % len(signs)]
                     members = list(members_of(state, r))
                     low, high = features[members][:, [0, 3]].min(0), features[members][:, [2, 5]].max(0)
                     z[r, 2] = sign * np.radians(KICK_DEG) * np.linalg.norm(high - low) / 2

@@ -95,25 +95,49 @@ class Judge:
         if unmet:
             add("unmet", self.costs.unmet + self.costs.unmet_px * float(off[off > UNMET_PX * self.unit].sum()) / self.unit)
         motion = measure_motion(matrices, self.setting.facts.features)
-        outcomes = [self._relation(e, r, matrices, motion, add) for e, r in enumerate(self.setting.relations)]
+        outcomes = self._relations(matrices, motion, add)
         self._unasked(matrices, motion, add)
-        self._asked_parts(state, motion, add)
+        self._asked_parts(state, matrices, motion, add)
         self._surroundings(matrices, motion, add)
         strained = tuple(e for e, (_, cost) in enumerate(outcomes) if cost > 0.05)
         return Judgement(terms, tuple(o for o, _ in outcomes), strained, unmet)
 
-    def _relation(self, e: int, r: Relation, matrices, motion, add) -> tuple[str, float]:  # type: ignore[no-untyped-def]
+    def _relations(self, matrices, motion, add) -> list[tuple[str, float]]:  # type: ignore[no-untyped-def]
+        """Outcome and cost of every relation. Two objects that meet in several places are still connected while one
+        of these holds: only the cheapest of their relations counts in full, the others hardly."""
+        relations = self.setting.relations
+        found = [self._relation(r, matrices, motion) for r in relations]
+        best: dict[tuple[str, str], float] = {}
+        pairs = [self.setting.object_pair(r) for r in relations]
+        for pair, (_, cost, _) in zip(pairs, found, strict=True):
+            if pair:
+                best[pair] = min(best.get(pair, np.inf), cost)
+        out = []
+        for pair, (outcome, cost, term) in zip(pairs, found, strict=True):
+            if pair and cost > best[pair]:
+                cost = 0.1 * cost
+            elif pair:
+                best[pair] = -1.0  # the cheapest one counts once
+            add(term, cost)
+            out.append((outcome, cost))
+        return out
+
+    def _relation(self, r: Relation, matrices, motion) -> tuple[str, float, str]:  # type: ignore[no-untyped-def]
         if np.allclose(matrices[r.a], matrices[r.b], atol=1e-6):
-            return "F" if motion.shift[r.a] > STILL_PX * self.unit else "ST", 0.0
-        slip = self.shapes.slip(r, matrices, motion.turn) / self.unit
+            return "F" if motion.shift[r.a] > STILL_PX * self.unit else "ST", 0.0, ""
+        if r.kind == "near" and self.asked[r.a] and self.asked[r.b]:
+            return "N", 0.0, ""
+        along, across = (x / self.unit for x in self.shapes.slip(r, matrices, motion.turn))
+        slip = max(along, across)
         kind = "near" if r.kind == "near" else "inside" if r.kind == "inside" else r.scope.replace("intra-crucial", "crucial")
         if slip < 1.0:
-            return "ST", 0.0
+            return "ST", 0.0, ""
         loss = self.shapes.loss(r, matrices)
-        slide = self.costs.slid[kind] * min(1.0, slip / self.costs.slide_scale)
+        slide = self.costs.slid[kind] * min(1.0, along / self.costs.slide_scale)
+        slide += self.costs.pulled[kind] * min(1.0, across / self.costs.pull_scale)
+        slide = min(slide, self.costs.broken[kind])
         cost = slide + (self.costs.broken[kind] - slide) * loss if loss > 0 else slide
-        add("broken" if loss > 0.5 else "slid", cost)
-        return ("N" if loss > 0.5 else "WK" if slip > 4.0 else "ST"), cost
+        return ("N" if loss > 0.5 else "WK" if slip > 4.0 else "ST"), cost, "broken" if loss > 0.5 else "slid"
 
     def _unasked(self, matrices, motion, add) -> None:  # type: ignore[no-untyped-def]
         """Cost of every distinct motion that nobody asked for, once for all segments that share it."""
@@ -155,20 +179,26 @@ class Judge:
             ratio = float(motion.scales[i, 0] / max(motion.scales[i, 1], 1e-3))
             add("squashed", self.costs.squashed * min(1.0, 3 * np.log(ratio)))
 
-    def _asked_parts(self, state: State, motion: Motion, add) -> None:  # type: ignore[no-untyped-def]
+    def _asked_parts(self, state: State, matrices, motion: Motion, add) -> None:  # type: ignore[no-untyped-def]
         """Unasked kinds of motion of asked parts, and asked kinds that did not happen."""
+        facts, features = self.setting.facts, self.shapes.features(matrices)
         for thing in self.setting.intent.things:
-            turn = np.abs(motion.turn[list(thing.members)])
-            stretch = np.abs(np.log(np.maximum(motion.scales[list(thing.members)], 1e-3))).max(1)
-            if "rotate" in thing.kinds and turn.max() < 1.0:
-                add("idle", self.costs.idle_specifier)
+            members = list(thing.members)
+            turn = np.abs(motion.turn[members])
+            stretch = np.abs(np.log(np.maximum(motion.scales[members], 1e-3))).max(1)
+            if "rotate" in thing.kinds:
+                add("idle", self.costs.idle_specifier * float((turn < 1.0).mean()))
             if "scale" in thing.kinds and stretch.max() < 0.01:
                 add("idle", self.costs.idle_specifier)
-            if "translate" in thing.kinds and motion.shift[list(thing.members)].max() < STILL_PX * self.unit:
-                add("idle", self.costs.idle_specifier / 4)
+            if "translate" in thing.kinds:
+                idle = float((motion.shift[members] < STILL_PX * self.unit).mean())
+                add("idle", self.costs.idle_specifier * (idle if 0 < idle < 1 else idle / 4))
         for i, kinds in self.asked.items():
             if not kinds:
                 continue
+            if facts.grounded[i] and not kinds & {"translate", "rotate"}:
+                lifted = abs(features[i, 5] - facts.features[i, 5]) / self.unit
+                add("uprooted", self.costs.uprooted * min(1.0, lifted / 20) if lifted > 1.5 else 0.0)
             if "rotate" not in kinds and abs(motion.turn[i]) > 0.3:
                 add("extra", self.costs.extra * min(1.0, 0.3 + abs(motion.turn[i]) / 10))
             stretch_i = float(np.abs(np.log(np.maximum(motion.scales[i], 1e-3))).max())
@@ -187,7 +217,9 @@ class Judge:
                 continue
             before = facts.features[a.a, a.feature] - (0 if a.b is None else facts.features[a.b, a.feature])
             after = features[a.a, a.feature] - (0 if a.b is None else features[a.b, a.feature])
-            off = abs(after - before) / self.unit
+            if a.reason == "support":
+                before = 0.0
+            off = max(0.0, abs(after - before) - a.slack) / self.unit
             if off > 1.5:
                 add("misaligned", self.costs.misaligned[a.reason] * min(1.0, off / 15))
         add("off canvas", self.costs.off_canvas * self.shapes.off_canvas(features))

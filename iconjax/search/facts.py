@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from iconjax.relations.types import Relation
-from iconjax.scene.sampling import elongation, principal_axis
+from iconjax.scene.sampling import elongation, principal_axis, support_points
 from iconjax.scene.types import Scene
 
 ALIGNED = 0.005
@@ -25,13 +25,15 @@ class Alignment:
     Attributes:
         a, b: segments.
         feature: 0..5 for min x, centre x, max x, min y, centre y, max y.
-        reason: "touching", "siblings" or "ground".
+        reason: "touching", "siblings", "ground", or "support" for what is put on top of something: centred within slack.
+        slack: how far off it may be, px.
     """
 
     a: int
     b: int | None
     feature: int
     reason: str
+    slack: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -66,19 +68,25 @@ def gather_facts(scene: Scene, relations: Sequence[Relation]) -> Facts:
     features = np.stack([x0, (x0 + x1) / 2, x1, y0, (y0 + y1) / 2, y1], 1)
     area = np.array([s.area for s in scene.segments])
     disc = np.pi / 4 * (x1 - x0) * (y1 - y0)
+    hull = np.array([_polygon_area(support_points(s.loops, 64)) for s in scene.segments])
     square = np.minimum(x1 - x0, y1 - y0) / np.maximum(np.maximum(x1 - x0, y1 - y0), 1e-9)
     grounded = y1 >= y1.max() - GROUND * scene.size
     host = _hosts(scene, relations)
     return Facts(
         features=features,
         area=area / area.sum(),
-        round=(square > 0.88) & (np.abs(area / np.maximum(disc, 1e-9) - 1) < 0.1),
+        round=(square > 0.88) & (np.abs(hull / np.maximum(disc, 1e-9) - 1) < 0.08),
         elongated=np.array([elongation(s.loops) for s in scene.segments]),
         long_dir=np.array([principal_axis(s.loops) for s in scene.segments]),
         host=host,
         grounded=grounded,
         alignments=_alignments(scene, relations, features, grounded),
     )
+
+
+def _polygon_area(loop: Float[np.ndarray, "v 2"]) -> float:
+    x, y = loop[:, 0], loop[:, 1]
+    return float(abs(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y)) / 2)
 
 
 def _hosts(scene: Scene, relations: Sequence[Relation]) -> tuple[int | None, ...]:

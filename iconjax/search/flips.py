@@ -15,13 +15,19 @@ FREEDOMS = ("N", "T", "TR", "TSx", "TSy", "TSu", "TSl")
 def flips(setting: Setting, state: State, judgement: Judgement) -> Iterator[State]:
     """States one flip away, at the segments and relations that cost something, most strained first."""
     hot = _hot(setting, state, judgement)
+    lost = {e: judgement.outcomes[e] for e in judgement.strained if judgement.outcomes[e] in ("N", "WK")}
+    if any(state.relations.get(e, "ST") != s for e, s in lost.items()):
+        yield state.with_relations(lost, "relations as they turned out")
+        gone = {e: s for e, s in lost.items() if s == "N"}
+        if gone and gone != lost:
+            yield state.with_relations(gone, "lost relations given up")
     for e in judgement.strained:
         status = state.relations.get(e, "ST")
         for other in ("WK", "N"):
             if other != status:
                 yield state.with_relations({e: other}, f"relation {e} to {other}")
     for i in hot:
-        if setting.facts.host[i] is not None and state.modes[i].startswith("W:"):
+        if state.modes[i] == f"W:{setting.facts.host[i]}" and not setting.intent.things_of(i):
             yield state.with_modes({i: "T"}, f"detail {i} keeps its shape")
             continue
         for changes, origin in _segment_flips(setting, state, i, judgement.unmet):
@@ -82,6 +88,6 @@ def _sibling_flips(setting: Setting, state: State, hot: Sequence[int]) -> Iterat
         for other in FREEDOMS:
             if other != mode:
                 yield state.with_modes({i: other for i in alike}, f"all of {mode} to {other}")
-    details = [i for i in hot if setting.facts.host[i] is not None and state.modes[i].startswith("W:")]
+    details = [i for i in hot if state.modes[i] == f"W:{setting.facts.host[i]}" and not setting.intent.things_of(i)]
     if len(details) > 1:
         yield state.with_modes({i: "T" for i in details}, "all details keep their shape")

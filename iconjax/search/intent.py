@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from iconjax.dsl.nodes import Call, Node, Program, SegmentRef
+from iconjax.dsl.nodes import Call, Node, Number, Program, SegmentRef
 from iconjax.scene.types import Scene
 
 KINDS = ("translate", "rotate", "scale")
@@ -50,6 +50,7 @@ class Intent:
         together: sets of segments that move as one.
         mentioned: segments that a constraint mentions in their edited pose.
         placed: pairs of segment sets where the first is put on top of the second and touches it.
+        changed: extents, "x" or "y", that a constraint changes rather than keeps.
     """
 
     things: tuple[Thing, ...]
@@ -57,6 +58,13 @@ class Intent:
     together: tuple[frozenset[int], ...]
     mentioned: frozenset[int]
     placed: tuple[tuple[frozenset[int], frozenset[int]], ...]
+    changed: frozenset[str]
+
+    def only_extent(self, kind: str) -> str:
+        """The one-axis scale kind behind `kind` where the program changes one extent and keeps the other, else ""."""
+        if kind != "Sxy":
+            return kind
+        return {frozenset("x"): "Sx", frozenset("y"): "Sy"}.get(self.changed, "")
 
     def things_of(self, segment: int) -> tuple[Thing, ...]:
         """Things that `segment` belongs to, the smallest first."""
@@ -92,7 +100,10 @@ def read_intent(program: Program, scene: Scene) -> Intent:
             turns = any(t for m, _, t in spoken if set(m) & set(movable))
             things.append(Thing(movable, frozenset(kinds), extents, turns))
     mentioned = frozenset(i for m, _, _ in spoken for i in m)
-    return Intent(tuple(things), frozenset(fixed), tuple(together), mentioned, _placed(constraints, scene))
+    changed = frozenset(e for c in constraints if not _keeps(c) for _, extents, _ in _spoken([c], scene) for e in extents)
+    return Intent(
+        tuple(things), frozenset(fixed), tuple(together), mentioned, _placed(constraints, scene), changed & {"x", "y"}
+    )
 
 
 def _fits(spoken: tuple[int, ...], members: tuple[int, ...]) -> bool:
@@ -157,7 +168,8 @@ def _keeps(call: Call) -> bool:
     """Whether a constraint only says that something keeps its old value: that asks for no motion."""
     if call.name != "equal" or len(call.args) != 2:
         return False
-    return _strip(call.args[0]) == _strip(call.args[1])
+    still = Number(0.0) in call.args and any(isinstance(a, Call) and a.name in {"rotation", "angle"} for a in call.args)
+    return still or _strip(call.args[0]) == _strip(call.args[1])
 
 
 def _strip(node: Node) -> Node:

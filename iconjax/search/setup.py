@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -16,8 +16,8 @@ from iconjax.relations.detect import detect_relations
 from iconjax.relations.types import Relation
 from iconjax.scene.types import Scene
 from iconjax.search.candidate import Setting, Sizes
-from iconjax.search.facts import Facts, gather_facts
-from iconjax.search.intent import read_intent
+from iconjax.search.facts import Alignment, Facts, gather_facts
+from iconjax.search.intent import Intent, read_intent
 from iconjax.search.config import SearchConfig
 from iconjax.search.shapes import Shapes
 from iconjax.solve.arrays import Alignments, Joints, Problem
@@ -78,7 +78,9 @@ def prepare(scene: Scene, program: Program, config: SearchConfig, registry: Regi
     registry = registry or default_registry()
     relations = detect_relations(scene)
     facts = gather_facts(scene, relations)
-    setting = Setting(facts, relations, read_intent(program, scene), config.forces, float(scene.size))
+    intent = read_intent(program, scene)
+    facts = replace(facts, alignments=(*_supports(facts, intent), *facts.alignments))
+    setting = Setting(facts, relations, intent, config.forces, float(scene.size), tuple(s.object for s in scene.segments))
     checked = check_or_raise(program, registry)
     motion = {o.name for o in registry.operators.values() if o.is_motion}
     units = tuple(None if c.name in motion else checked.unit(c) for c in program.calls)
@@ -95,6 +97,17 @@ def prepare(scene: Scene, program: Program, config: SearchConfig, registry: Regi
         scene_hulls(scene, HULL, n), np.array([0.0, scene.width, 0.0, scene.height]),
     )  # fmt: skip
     return Setup(scene, program, units, setting, Shapes(scene, relations), compiled, problem, table, sizes)
+
+
+def _supports(facts: Facts, intent: Intent) -> list[Alignment]:
+    """What is put on top of something has its centre over what it stands on."""
+    out = []
+    for above, below in intent.placed:
+        lowest = max(above, key=lambda i: facts.features[i, 5])
+        top = min(below, key=lambda i: facts.features[i, 3])
+        width = float(facts.features[top, 2] - facts.features[top, 0])
+        out.append(Alignment(lowest, top, 1, "support", 0.25 * width))
+    return out
 
 
 def _grown(count: int, least: int) -> int:
@@ -122,12 +135,16 @@ def _joints(relations: Sequence[Relation], sizes: Sizes) -> Joints:
 def _alignments(facts: Facts, sizes: Sizes) -> Alignments:
     rows, still = facts.alignments, sizes.segments
     f = sizes.alignments
-    offset = np.zeros(f)
+    offset, slack = np.zeros(f), np.zeros(f)
     for k, a in enumerate(rows):
+        slack[k] = a.slack
+        if a.reason == "support":
+            continue
         offset[k] = facts.features[a.a, a.feature] - (0.0 if a.b is None else facts.features[a.b, a.feature])
     return Alignments(
         index_array([a.a for a in rows], f, still),
         index_array([still if a.b is None else a.b for a in rows], f, still),
         index_array([a.feature for a in rows], f, 0),
         offset,
+        slack,
     )

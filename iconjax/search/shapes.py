@@ -45,14 +45,20 @@ class Shapes:
         (x0, y0), (x1, y1) = hull.min(1).T, hull.max(1).T
         return np.stack([x0, (x0 + x1) / 2, x1, y0, (y0 + y1) / 2, y1], 1)
 
-    def slip(self, r: Relation, matrices: Float[np.ndarray, "n 6"], turn: Float[np.ndarray, " n"]) -> float:
-        """How far the two sides of a relation's contact have come apart, px: at its middle, and half that at its ends."""
+    def slip(
+        self, r: Relation, matrices: Float[np.ndarray, "n 6"], turn: Float[np.ndarray, " n"]
+    ) -> tuple[float, float]:
+        """How far the two sides of a relation's contact have come apart along and across it, px: the worse of its
+        middle and half of its ends."""
         angle = np.radians((turn[r.a] + turn[r.b]) / 2)
         rotation = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
         pairs = np.stack([r.contact.middle, r.contact.first, r.contact.second])
         a, b = apply(matrices[r.a], pairs[:, 0]), apply(matrices[r.b], pairs[:, 1])
-        apart = np.linalg.norm(b - a - (pairs[:, 1] - pairs[:, 0]) @ rotation.T, axis=1)
-        return float(max(apart[0], 0.5 * apart[1:].max()))
+        apart = b - a - (pairs[:, 1] - pairs[:, 0]) @ rotation.T
+        normal = rotation @ r.contact.normal
+        across = np.abs(apart @ normal)
+        along = np.abs(apart @ np.array([-normal[1], normal[0]]))
+        return float(max(along[0], 0.5 * along[1:].max())), float(max(across[0], 0.5 * across[1:].max()))
 
     def loss(self, r: Relation, matrices: Float[np.ndarray, "n 6"]) -> float:
         """How far a relation is lost, from 0 (still holds) to 1 (gone)."""

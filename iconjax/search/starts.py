@@ -113,9 +113,26 @@ def options(setting: Setting, base: State, group: set[int]) -> list[dict[int, Mo
     if any("R" in base.mode(i) for i in touched):
         out.append(group_modes(group, leader, "TR"))
     out.append(group_modes(group, leader, "N"))
+    if len(group) > 1:
+        out += loose_modes(setting, base, group)
     if len(group) == 1:
         out += [{leader: f"W:{r}"} for r in roots if r not in rigid]
         out += [group_modes(group, leader, m) for m in ("TSx", "TSy")]
+    return out
+
+
+def loose_modes(setting: Setting, base: State, group: set[int]) -> list[dict[int, Mode]]:
+    """A hanging set taken apart: each of its segments follows by itself, those next to something that changes size
+    change theirs in the same way."""
+    apart = {i: "T" for i in group}
+    out = [apart]
+    scaled = {}
+    for i in group:
+        kinds = {scale_kind(base.mode(j)) for j in neighbours(setting.relations, {i})} - {"", "Su", "Sl", "Ss"}
+        for kind in sorted(kinds):
+            scaled[i] = "T" + (setting.intent.only_extent(kind) or kind)
+    if scaled:
+        out.append({**apart, **scaled})
     return out
 
 

@@ -23,9 +23,11 @@ class Forces:
         middle, end: shares of these that hold the middle and each end of a contact: a follower turns or stretches along
             where it may, and slides as a whole where it may not.
         align: keeping an alignment, by its reason.
+        asked_ground: share of the ground's force that acts on what is asked to move.
         canvas: staying in the picture.
         idle: unasked motion of a part: translation, rotation, scaling.
         inertia: weight of half the squared parameter of what was asked to move.
+        spin: shifting a disc that is asked to turn, and nothing else.
     """
 
     crucial: float = 20.0
@@ -36,11 +38,13 @@ class Forces:
     middle: float = 0.34
     end: float = 0.33
     align: Mapping[str, float] = field(
-        default_factory=lambda: {"touching": 8.0, "siblings": 2.0, "ground": 4.0}
+        default_factory=lambda: {"touching": 20.0, "siblings": 2.0, "ground": 4.0, "support": 6.0}
     )
+    asked_ground: float = 0.2
     canvas: float = 30.0
     idle: tuple[float, float, float] = (0.2, 0.4, 0.8)
     inertia: float = 1e-3
+    spin: float = 60.0
 
     def hold(self, r: Relation) -> float:
         """Force that holds the meeting point of a relation."""
@@ -58,12 +62,15 @@ class Forces:
         """Force that holds each end of a contact."""
         return self.end * self.strength(r) * (0.2 if r.kind == "near" else 1.0)
 
-    def body(self, asked: Set[str], area: float) -> tuple[Float[np.ndarray, "5"], Float[np.ndarray, "5"]]:
-        """Inertia and sparsity of a body, given the kinds of motion asked of it and its share of the area."""
+    def body(self, asked: Set[str], area: float, spins: bool) -> tuple[Float[np.ndarray, "5"], Float[np.ndarray, "5"]]:
+        """Inertia and sparsity of a body, given the kinds of motion asked of it and its share of the area.
+
+        A disc that `spins` (is asked to turn and nothing else) does so about its centre.
+        """
         move, turn, scale = (w * (1 + 4 * area) for w in self.idle)
         sparsity = np.array([move, move, turn, scale, scale])
         if asked:  # whatever turns or changes size may have to shift for it
-            sparsity[:2] = 0.0
+            sparsity[:2] = self.spin if spins else 0.0
         if "rotate" in asked:
             sparsity[2] = 0.0
         if "scale" in asked:
@@ -78,8 +85,9 @@ class Costs:
     Attributes:
         unmet: a primary constraint that fails, plus `unmet_px` for each pixel it is off.
         broken: a relation that no longer holds, by type.
-        slid: a relation that still holds but whose meeting point slid by `slide_scale` or more, by type (in proportion
-            below that).
+        slid: a relation that still holds but whose sides slid along each other by `slide_scale` or more, by type (in
+            proportion below that).
+        pulled: the same for sides that came apart or into each other by `pull_scale` or more, across the contact.
         moved: another set of parts that moves in a way of its own though nobody asked, plus `moved_area` times its area.
         along: the same where it goes along with something that was asked to move.
         turned, stretched: added where it turns or changes size; `squashed` where a disc loses its shape.
@@ -99,18 +107,22 @@ class Costs:
     slid: Mapping[str, float] = field(
         default_factory=lambda: {"crucial": 6.0, "intra": 1.5, "inter": 1.0, "inside": 3.0, "near": 1.5}
     )
+    pulled: Mapping[str, float] = field(
+        default_factory=lambda: {"crucial": 4.0, "intra": 1.5, "inter": 2.0, "inside": 2.0, "near": 1.5}
+    )
     slide_scale: float = 50.0
+    pull_scale: float = 30.0
     moved: float = 1.0
-    moved_area: float = 3.0
+    moved_area: float = 5.0
     along: float = 0.3
     turned: float = 1.5
     stretched: float = 3.0
     squashed: float = 2.0
-    uprooted: float = 3.0
+    uprooted: float = 1.5
     extra: float = 3.0
     idle_specifier: float = 8.0
     misaligned: Mapping[str, float] = field(
-        default_factory=lambda: {"touching": 0.3, "siblings": 0.5, "ground": 0.5}
+        default_factory=lambda: {"touching": 1.0, "siblings": 1.0, "ground": 0.5, "support": 3.0}
     )
     off_canvas: float = 20.0
     collision: float = 2.0

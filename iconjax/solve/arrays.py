@@ -87,13 +87,15 @@ class Alignments(NamedTuple):
     Attributes:
         a, b: (F,) segments.
         feature: (F,) 0..5 for min x, centre x, max x, min y, centre y, max y.
-        offset: (F,) value of a minus value of b before the edit.
+        offset: (F,) wanted value of a minus value of b.
+        slack: (F,) how far off it may be.
     """
 
     a: Int[Array, " F"]
     b: Int[Array, " F"]
     feature: Int[Array, " F"]
     offset: Float[Array, " F"]
+    slack: Float[Array, " F"]
 
 
 class Problem(NamedTuple):

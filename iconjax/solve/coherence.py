@@ -114,7 +114,9 @@ def box_rows(
     values = jnp.concatenate([value, jnp.zeros((1, 4))])
     slopes = jnp.concatenate([slope, jnp.zeros((1, *slope.shape[1:]))])
     off = jnp.einsum("fj,fj->f", mix, values[rows.a] - values[rows.b]) - rows.offset
-    off_slope = jnp.einsum("fj,fjkv->fkv", mix, slopes[rows.a] - slopes[rows.b])
+    beyond = jnp.abs(off) > rows.slack
+    off = jnp.where(beyond, off - jnp.sign(off) * rows.slack, 0.0)
+    off_slope = beyond[:, None, None] * jnp.einsum("fj,fjkv->fkv", mix, slopes[rows.a] - slopes[rows.b])
 
     sign = jnp.array([-1.0, 1.0, -1.0, 1.0])
     bound = jnp.maximum(sign * problem.canvas, sign * before)  # never worse than it was
