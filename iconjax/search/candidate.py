@@ -29,24 +29,33 @@ class Sizes:
 
 @dataclass(frozen=True)
 class Setting:
-    """What all candidates of an edit are made from."""
+    """What all candidates of an edit are made from.
+
+    Attributes:
+        facts, relations, intent: of the scene and the program.
+        forces: weights inside a solve.
+        size: larger side of the picture, px.
+        pieces: for each segment the number of the connected piece of its object that it belongs to.
+    """
 
     facts: Facts
     relations: tuple[Relation, ...]
     intent: Intent
     forces: Forces
     size: float
-    objects: tuple[str, ...]
+    pieces: tuple[int, ...]
 
-    def object_pair(self, r: Relation) -> tuple[str, str] | None:
-        """The two objects that a relation connects; None within one object."""
-        a, b = sorted((self.objects[r.a], self.objects[r.b]))
-        return (a, b) if a != b else None
+    def pair(self, r: Relation) -> tuple[int, int] | None:
+        """The two things that a relation between objects connects, by number; None within one object."""
+        if r.scope != "inter":
+            return None
+        a, b = sorted((self.pieces[r.a], self.pieces[r.b]))
+        return a, b
 
     def companions(self, r: Relation) -> int:
-        """How many relations connect the same two objects; 1 within one object."""
-        pair = self.object_pair(r)
-        return sum(self.object_pair(q) == pair for q in self.relations) if pair else 1
+        """How many relations connect the same two things; 1 within one object."""
+        pair = self.pair(r)
+        return sum(self.pair(q) == pair for q in self.relations) if pair else 1
 
 
 def body_roots(state: State) -> tuple[int, ...]:
@@ -144,9 +153,12 @@ def _hinged(setting: Setting, body: Float[np.ndarray, " n"], r: Relation, still:
 
 def _alignment_weights(setting: Setting, state: State, sizes: Sizes) -> Float[np.ndarray, " f"]:
     weights = np.zeros(sizes.alignments)
+    loose = {(setting.relations[e].a, setting.relations[e].b) for e in state.relations}
     for f, a in enumerate(setting.facts.alignments[: sizes.alignments]):
         asked = {kind for t in setting.intent.things_of(a.a) for kind in t.kinds}
         if a.reason == "ground" and "rotate" in asked:
+            continue
+        if a.reason in ("touching", "overhang") and ((a.a, a.b) in loose or (a.b, a.a) in loose):
             continue
         weights[f] = setting.forces.align[a.reason]
         if a.reason == "ground" and "translate" in asked:

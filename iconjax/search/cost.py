@@ -103,12 +103,12 @@ class Judge:
         return Judgement(terms, tuple(o for o, _ in outcomes), strained, unmet)
 
     def _relations(self, matrices, motion, add) -> list[tuple[str, float]]:  # type: ignore[no-untyped-def]
-        """Outcome and cost of every relation. Two objects that meet in several places are still connected while one
+        """Outcome and cost of every relation. Two things that meet in several places are still connected while one
         of these holds: only the cheapest of their relations counts in full, the others hardly."""
         relations = self.setting.relations
         found = [self._relation(r, matrices, motion) for r in relations]
-        best: dict[tuple[str, str], float] = {}
-        pairs = [self.setting.object_pair(r) for r in relations]
+        best: dict[tuple[int, int], float] = {}
+        pairs = [self.setting.pair(r) for r in relations]
         for pair, (_, cost, _) in zip(pairs, found, strict=True):
             if pair:
                 best[pair] = min(best.get(pair, np.inf), cost)
@@ -135,6 +135,8 @@ class Judge:
         loss = self.shapes.loss(r, matrices)
         slide = self.costs.slid[kind] * min(1.0, along / self.costs.slide_scale)
         slide += self.costs.pulled[kind] * min(1.0, across / self.costs.pull_scale)
+        # A broad contact, along much of both outlines, binds the two more than a touch in passing.
+        slide *= 1 + self.costs.broad * max(0.0, min(r.contact.share, r.contact.share_b) - 0.2)
         slide = min(slide, self.costs.broken[kind])
         cost = slide + (self.costs.broken[kind] - slide) * loss if loss > 0 else slide
         return ("N" if loss > 0.5 else "WK" if slip > 4.0 else "ST"), cost, "broken" if loss > 0.5 else "slid"
@@ -166,7 +168,8 @@ class Judge:
                     add("turned", costs.turned * min(1.0, abs(motion.turn[i]) / 10))
                 self._distorted(i, motion, add)
                 if facts.grounded[i]:
-                    add("uprooted", costs.uprooted * min(1.0, motion.shift[i] / (20 * self.unit)))
+                    weight = costs.uprooted * (0.5 if along else 1.0)
+                    add("uprooted", weight * min(1.0, motion.shift[i] / (20 * self.unit)))
 
     def _distorted(self, i: int, motion: Motion, add) -> None:  # type: ignore[no-untyped-def]
         stretch = float(np.abs(np.log(np.maximum(motion.scales[i], 1e-3))).max())
@@ -217,9 +220,7 @@ class Judge:
                 continue
             before = facts.features[a.a, a.feature] - (0 if a.b is None else facts.features[a.b, a.feature])
             after = features[a.a, a.feature] - (0 if a.b is None else features[a.b, a.feature])
-            if a.reason == "support":
-                before = 0.0
-            off = max(0.0, abs(after - before) - a.slack) / self.unit
+            off = a.off(before, after) / self.unit
             if off > 1.5:
                 add("misaligned", self.costs.misaligned[a.reason] * min(1.0, off / 15))
         add("off canvas", self.costs.off_canvas * self.shapes.off_canvas(features))

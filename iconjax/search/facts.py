@@ -25,15 +25,24 @@ class Alignment:
     Attributes:
         a, b: segments.
         feature: 0..5 for min x, centre x, max x, min y, centre y, max y.
-        reason: "touching", "siblings", "ground", or "support" for what is put on top of something: centred within slack.
-        slack: how far off it may be, px.
+        reason: "touching", "siblings", "ground", "support" for what is put on top of something (centred within slack),
+            "overhang" for what does not stick out beyond what it rests on.
+        low, high: how much less or more than before the difference of the two features may be, px.
+        wanted: difference of the two features to aim at where it is not the one before, px.
     """
 
     a: int
     b: int | None
     feature: int
     reason: str
-    slack: float = 0.0
+    low: float = 0.0
+    high: float = 0.0
+    wanted: float | None = None
+
+    def off(self, before: float, after: float) -> float:
+        """How far a difference of features is outside what is allowed, px."""
+        change = after - (before if self.wanted is None else self.wanted)
+        return max(0.0, change - self.high, -self.low - change)
 
 
 @dataclass(frozen=True)
@@ -84,6 +93,25 @@ def gather_facts(scene: Scene, relations: Sequence[Relation]) -> Facts:
     )
 
 
+def _overhangs(
+    scene: Scene, relations: Sequence[Relation], features: Float[np.ndarray, "n 6"], limit: float
+) -> list[Alignment]:
+    """Where one segment lies within the extent of another along their contact, it goes on doing so."""
+    found = []
+    for r in relations:
+        if r.kind != "overlap":
+            continue
+        low, high = (0, 2) if abs(r.contact.normal[1]) > 0.9 else (3, 5)
+        if max(abs(r.contact.normal)) <= 0.9:
+            continue
+        for a, b in ((r.a, r.b), (r.b, r.a)):
+            if features[a, low] - features[b, low] >= limit and features[b, high] - features[a, high] >= limit:
+                for one, other, feature in ((a, b, low), (b, a, high)):
+                    room = float(features[one, feature] - features[other, feature])
+                    found.append(Alignment(one, other, feature, "overhang", room, 4.0 * scene.size))
+    return found
+
+
 def _polygon_area(loop: Float[np.ndarray, "v 2"]) -> float:
     x, y = loop[:, 0], loop[:, 1]
     return float(abs(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y)) / 2)
@@ -108,6 +136,7 @@ def _alignments(
     for a, b in sorted(linked):
         for f in np.flatnonzero(np.abs(features[a] - features[b]) <= limit):
             found.append(Alignment(a, b, int(f), "touching"))
+    found += _overhangs(scene, relations, features, limit)
     size = features[:, [2, 5]] - features[:, [0, 3]]
     for a in range(len(features)):
         for b in range(a + 1, len(features)):

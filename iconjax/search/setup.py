@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+import networkx as nx
 import numpy as np
 
 from iconjax.dsl.check import check_or_raise
@@ -80,7 +81,7 @@ def prepare(scene: Scene, program: Program, config: SearchConfig, registry: Regi
     facts = gather_facts(scene, relations)
     intent = read_intent(program, scene)
     facts = replace(facts, alignments=(*_supports(facts, intent), *facts.alignments))
-    setting = Setting(facts, relations, intent, config.forces, float(scene.size), tuple(s.object for s in scene.segments))
+    setting = Setting(facts, relations, intent, config.forces, float(scene.size), _pieces(len(scene.segments), relations))
     checked = check_or_raise(program, registry)
     motion = {o.name for o in registry.operators.values() if o.is_motion}
     units = tuple(None if c.name in motion else checked.unit(c) for c in program.calls)
@@ -99,6 +100,14 @@ def prepare(scene: Scene, program: Program, config: SearchConfig, registry: Regi
     return Setup(scene, program, units, setting, Shapes(scene, relations), compiled, problem, table, sizes)
 
 
+def _pieces(count: int, relations: Sequence[Relation]) -> tuple[int, ...]:
+    graph = nx.Graph()
+    graph.add_nodes_from(range(count))
+    graph.add_edges_from((r.a, r.b) for r in relations if r.scope != "inter" and r.kind != "near")
+    number = {i: k for k, piece in enumerate(nx.connected_components(graph)) for i in piece}
+    return tuple(number[i] for i in range(count))
+
+
 def _supports(facts: Facts, intent: Intent) -> list[Alignment]:
     """What is put on top of something has its centre over what it stands on."""
     out = []
@@ -106,7 +115,7 @@ def _supports(facts: Facts, intent: Intent) -> list[Alignment]:
         lowest = max(above, key=lambda i: facts.features[i, 5])
         top = min(below, key=lambda i: facts.features[i, 3])
         width = float(facts.features[top, 2] - facts.features[top, 0])
-        out.append(Alignment(lowest, top, 1, "support", 0.25 * width))
+        out.append(Alignment(lowest, top, 1, "support", 0.25 * width, 0.25 * width, 0.0))
     return out
 
 
@@ -137,10 +146,9 @@ def _alignments(facts: Facts, sizes: Sizes) -> Alignments:
     f = sizes.alignments
     offset, slack = np.zeros(f), np.zeros(f)
     for k, a in enumerate(rows):
-        slack[k] = a.slack
-        if a.reason == "support":
-            continue
-        offset[k] = facts.features[a.a, a.feature] - (0.0 if a.b is None else facts.features[a.b, a.feature])
+        before = facts.features[a.a, a.feature] - (0.0 if a.b is None else facts.features[a.b, a.feature])
+        offset[k] = (before if a.wanted is None else a.wanted) + (a.high - a.low) / 2
+        slack[k] = (a.high + a.low) / 2
     return Alignments(
         index_array([a.a for a in rows], f, still),
         index_array([still if a.b is None else a.b for a in rows], f, still),

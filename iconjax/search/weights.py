@@ -27,6 +27,7 @@ class Forces:
         canvas: staying in the picture.
         idle: unasked motion of a part: translation, rotation, scaling.
         inertia: weight of half the squared parameter of what was asked to move.
+        shift: shifting what is asked to turn or to change size, but not to move.
         spin: shifting a disc that is asked to turn, and nothing else.
     """
 
@@ -38,13 +39,14 @@ class Forces:
     middle: float = 0.34
     end: float = 0.33
     align: Mapping[str, float] = field(
-        default_factory=lambda: {"touching": 20.0, "siblings": 2.0, "ground": 4.0, "support": 6.0}
+        default_factory=lambda: {"touching": 20.0, "siblings": 2.0, "ground": 4.0, "support": 6.0, "overhang": 8.0}
     )
     asked_ground: float = 0.2
     canvas: float = 30.0
     idle: tuple[float, float, float] = (0.2, 0.4, 0.8)
     inertia: float = 1e-3
     spin: float = 60.0
+    shift: float = 0.25
 
     def hold(self, r: Relation) -> float:
         """Force that holds the meeting point of a relation."""
@@ -70,7 +72,7 @@ class Forces:
         move, turn, scale = (w * (1 + 4 * area) for w in self.idle)
         sparsity = np.array([move, move, turn, scale, scale])
         if asked:  # whatever turns or changes size may have to shift for it
-            sparsity[:2] = self.spin if spins else 0.0
+            sparsity[:2] = self.spin if spins else 0.0 if "translate" in asked else self.shift
         if "rotate" in asked:
             sparsity[2] = 0.0
         if "scale" in asked:
@@ -88,6 +90,7 @@ class Costs:
         slid: a relation that still holds but whose sides slid along each other by `slide_scale` or more, by type (in
             proportion below that).
         pulled: the same for sides that came apart or into each other by `pull_scale` or more, across the contact.
+        broad: how much dearer that gets for each share of both outlines, beyond a fifth, that lies at the contact.
         moved: another set of parts that moves in a way of its own though nobody asked, plus `moved_area` times its area.
         along: the same where it goes along with something that was asked to move.
         turned, stretched: added where it turns or changes size; `squashed` where a disc loses its shape.
@@ -102,14 +105,15 @@ class Costs:
     unmet: float = 1000.0
     unmet_px: float = 10.0
     broken: Mapping[str, float] = field(
-        default_factory=lambda: {"crucial": 12.0, "intra": 4.0, "inter": 4.0, "inside": 8.0, "near": 1.5}
+        default_factory=lambda: {"crucial": 12.0, "intra": 4.0, "inter": 4.0, "inside": 8.0, "near": 0.5}
     )
     slid: Mapping[str, float] = field(
-        default_factory=lambda: {"crucial": 6.0, "intra": 1.5, "inter": 1.0, "inside": 3.0, "near": 1.5}
+        default_factory=lambda: {"crucial": 6.0, "intra": 1.5, "inter": 1.0, "inside": 3.0, "near": 0.5}
     )
     pulled: Mapping[str, float] = field(
-        default_factory=lambda: {"crucial": 4.0, "intra": 1.5, "inter": 2.0, "inside": 2.0, "near": 1.5}
+        default_factory=lambda: {"crucial": 4.0, "intra": 1.5, "inter": 2.0, "inside": 2.0, "near": 0.5}
     )
+    broad: float = 4.0
     slide_scale: float = 50.0
     pull_scale: float = 30.0
     moved: float = 1.0
@@ -122,7 +126,7 @@ class Costs:
     extra: float = 3.0
     idle_specifier: float = 8.0
     misaligned: Mapping[str, float] = field(
-        default_factory=lambda: {"touching": 1.0, "siblings": 1.0, "ground": 0.5, "support": 3.0}
+        default_factory=lambda: {"touching": 1.0, "siblings": 1.0, "ground": 0.5, "support": 3.0, "overhang": 0.5}
     )
     off_canvas: float = 20.0
     collision: float = 2.0

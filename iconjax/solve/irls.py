@@ -27,6 +27,8 @@ from iconjax.solve.table import OperatorTable
 
 HARD = 1e4
 """Weight of a squared primary residual (px) against soft forces of order 1 to 30."""
+HARD_START, HARD_RATE = 0.5, 2.2
+"""It begins small and grows by this factor an iteration: with a stiff valley from the start, steps along it are tiny."""
 EPS_START, EPS_END, EPS_RATE = 12.0, 0.02, 0.6
 """Smoothing of absolute values, px: first, last, factor an iteration."""
 DAMPING_START, DAMPING_LOW, DAMPING_HIGH = 1e-2, 1e-6, 1e8
@@ -64,27 +66,34 @@ def _smooth(x: Float[Array, " n"], eps: Float[Array, ""]) -> Float[Array, " n"]:
     return jnp.sqrt(x**2 + eps**2)
 
 
-def loss_of(system: System, cand: Candidate, z: Float[Array, "K 5"], eps: Float[Array, ""]) -> Float[Array, ""]:
-    """The loss at a linearised point, absolute values smoothed over `eps` px."""
+def loss_of(
+    system: System, cand: Candidate, z: Float[Array, "K 5"], eps: Float[Array, ""], hard: Float[Array, ""]
+) -> Float[Array, ""]:
+    """The loss at a linearised point, absolute values smoothed over `eps` px, primaries weighted by `hard`."""
     # A vector residual has two rows that share one norm: each row carries its squared share of it.
     share = jnp.where(system.norm > 0, (system.soft / (system.norm + 1e-9)) ** 2, 0.0)
     soft = jnp.sum(system.weight * (share * (_smooth(system.norm, eps) - eps)))
     bodies = cand.bodies
     own = 0.5 * bodies.inertia * z**2 + bodies.sparsity * (_smooth(z, eps) - eps)
-    return HARD / 2 * jnp.sum(system.primary**2) + soft + jnp.sum(own * bodies.free)
+    return hard / 2 * jnp.sum(system.primary**2) + soft + jnp.sum(own * bodies.free)
 
 
 def _step(
-    system: System, cand: Candidate, z: Float[Array, "K 5"], eps: Float[Array, ""], damping: Float[Array, ""]
+    system: System,
+    cand: Candidate,
+    z: Float[Array, "K 5"],
+    eps: Float[Array, ""],
+    hard: Float[Array, ""],
+    damping: Float[Array, ""],
 ) -> Float[Array, "K 5"]:
     bodies = cand.bodies
     flat, free = z.reshape(-1), bodies.free.reshape(-1)
     pull = system.weight / _smooth(system.norm, eps)
     own = (bodies.inertia + bodies.sparsity / _smooth(z, eps)).reshape(-1) * free
     gradient = (
-        HARD * system.primary @ system.primary_slope + (pull * system.soft) @ system.soft_slope + own * flat
+        hard * system.primary @ system.primary_slope + (pull * system.soft) @ system.soft_slope + own * flat
     )
-    curvature = HARD * system.primary_slope.T @ system.primary_slope
+    curvature = hard * system.primary_slope.T @ system.primary_slope
     curvature += (system.soft_slope * pull[:, None]).T @ system.soft_slope
     diagonal = jnp.diagonal(curvature) + own
     # Marquardt scaling with a floor, and a one for what is not free, so that the matrix stays positive definite.
@@ -123,15 +132,17 @@ def solve(
         first = state.count == 0
         eps = jnp.maximum(EPS_END, EPS_START * EPS_RATE**state.count)
         system = at(state.trial)
-        before, after = loss_of(state.system, cand, state.z, eps), loss_of(system, cand, state.trial, eps)
+        hard = jnp.minimum(HARD, HARD_START * HARD_RATE**state.count)
+        before = loss_of(state.system, cand, state.z, eps, hard)
+        after = loss_of(system, cand, state.trial, eps, hard)
         better = first | (jnp.isfinite(after) & (after <= before + 1e-9 * jnp.abs(before)))
         z = jnp.where(better, state.trial, state.z)
         system = jax.tree.map(lambda new, old: jnp.where(better, new, old), system, state.system)
         damping = state.damping * jnp.where(first, 1.0, jnp.where(better, 0.25, 6.0))
-        step = jnp.clip(_step(system, cand, z, eps, jnp.clip(damping, DAMPING_LOW, DAMPING_HIGH)), -most, most)
+        step = jnp.clip(_step(system, cand, z, eps, hard, jnp.clip(damping, DAMPING_LOW, DAMPING_HIGH)), -most, most)
         small = jnp.max(jnp.abs(step)) < 2e-4
         flat = better & ~first & (before - after < 1e-6 * (1 + before))
-        done = (eps <= EPS_END) & (small | flat) | (damping >= DAMPING_HIGH)
+        done = (eps <= EPS_END) & (hard >= HARD) & (small | flat) | (damping >= DAMPING_HIGH)
         return _State(z, system, z + step, jnp.clip(damping, DAMPING_LOW, DAMPING_HIGH), state.count + 1, done)
 
     shapes = jax.eval_shape(at, start)
@@ -139,5 +150,5 @@ def solve(
     first = _State(start, nothing, start, jnp.asarray(DAMPING_START), jnp.asarray(0), jnp.asarray(False))
     last = jax.lax.while_loop(lambda s: ~s.done & (s.count < iterations), body, first)
     segments = segment_matrices(matrices(last.z, bodies), cand.body)[:-1]
-    loss = loss_of(last.system, cand, last.z, jnp.asarray(EPS_END))
+    loss = loss_of(last.system, cand, last.z, jnp.asarray(EPS_END), jnp.asarray(HARD))
     return Solution(last.z, segments, last.system.primary, loss)

@@ -3,13 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any
 
 from iconjax.errors import ConfigError
-from iconjax.solve import irls
+from iconjax.solve import adam, irls, library
+from iconjax.solve.arrays import Candidate, Problem, Solution
+from iconjax.solve.objective import Coherent, Flat, Objective
+from iconjax.solve.table import OperatorTable
+
+
+def _solve(
+    minimise: Callable[[Objective], Flat], problem: Problem, cand: Candidate, table: OperatorTable, wide: bool = False
+) -> Solution:
+    objective = Coherent(problem, cand, table, wide)
+    return objective.solution(minimise(objective))
+
 
 METHODS: Mapping[str, Callable[..., Any]] = {
     "irls": irls.solve,
+    "adam": partial(_solve, partial(adam.minimise, iterations=150)),
+    "lbfgs": partial(_solve, library.lbfgs),
+    "bfgs": partial(_solve, library.bfgs),
+    "lm": partial(_solve, library.lm),
 }
 
 

@@ -1,0 +1,70 @@
+"""Adam with a decaying step, the paper's optimiser."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import jax
+import jax.numpy as jnp
+from jaxtyping import Array, Float, Int
+
+from iconjax.solve import irls
+from iconjax.solve.objective import SHARP, Flat, Level, Objective
+
+RATE_START, RATE_END = 10.0, 0.02
+"""Step in pixels: the paper's first one, and where the decay ends (the paper only says that it decreases)."""
+MEAN, SQUARE, TINY = 0.9, 0.999, 1e-8
+
+
+class _State(NamedTuple):
+    z: Flat
+    mean: Flat
+    square: Flat
+    best: Flat
+    least: Float[Array, ""]
+    count: Int[Array, ""]
+
+
+def blunt_to_sharp(done: Float[Array, ""]) -> Level:
+    """The level of the default strategy's loss after a share of the iterations; the last third is at the sharpest."""
+    share = jnp.minimum(1.5 * done, 1.0)
+    eps = irls.EPS_START * (irls.EPS_END / irls.EPS_START) ** share
+    hard = irls.HARD_START * (irls.HARD / irls.HARD_START) ** share
+    return Level(eps, hard)
+
+
+def minimise(objective: Objective, iterations: int, good: float = -1.0, continued: bool = True) -> Flat:
+    """Run Adam from the objective's start; the best point that was visited at the sharpest level.
+
+    Args:
+        iterations: at most this many.
+        good: a loss that is low enough to stop at.
+        continued: whether the loss goes from blunt to sharp on the way.
+    """
+
+    def level_at(count: Int[Array, ""]) -> Level:
+        return blunt_to_sharp(count / iterations) if continued else Level(*map(jnp.asarray, SHARP))
+
+    def body(state: _State) -> _State:
+        count = state.count + 1
+        level = level_at(state.count)
+        value, slope = objective.value_and_slope(state.z, level)
+        slope = jnp.where(jnp.isfinite(slope), slope, 0.0)
+        better = (level.hard >= irls.HARD * (1 - 1e-9)) & (value < state.least)
+        mean = MEAN * state.mean + (1 - MEAN) * slope
+        square = SQUARE * state.square + (1 - SQUARE) * slope**2
+        rate = RATE_START * (RATE_END / RATE_START) ** (state.count / iterations)
+        step = rate * (mean / (1 - MEAN**count)) / (jnp.sqrt(square / (1 - SQUARE**count)) + TINY)
+        return _State(
+            state.z - jnp.clip(step, -objective.most, objective.most) * objective.free,
+            mean,
+            square,
+            jnp.where(better, state.z, state.best),
+            jnp.where(better, value, state.least),
+            count,
+        )
+
+    zero = jnp.zeros_like(objective.start)
+    first = _State(objective.start, zero, zero, objective.start, jnp.asarray(jnp.inf), jnp.asarray(0))
+    last = jax.lax.while_loop(lambda s: (s.count < iterations) & (s.least > good), body, first)
+    return last.best

@@ -1,0 +1,109 @@
+"""General-purpose solvers of jaxopt and optimistix on a candidate's loss, from blunt to sharp in a few stages."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from iconjax.solve import irls
+from iconjax.solve.linear import solve_positive
+from iconjax.solve.objective import Coherent, Flat, Level, Objective, scalar, vector
+from iconjax.solve.pose import DOF
+
+STAGES = 4
+"""Each stage starts where the one before ended; smoothing falls and the weight of primaries grows by equal factors."""
+STEPS = 40
+"""Most iterations of a stage."""
+
+
+def levels() -> Level:
+    """The levels of all stages; both attributes are (STAGES,)."""
+    share = jnp.linspace(0.0, 1.0, STAGES)
+    return Level(
+        irls.EPS_START * (irls.EPS_END / irls.EPS_START) ** share,
+        irls.HARD_START * (irls.HARD / irls.HARD_START) ** share,
+    )
+
+
+def _staged(solve_stage: Any, start: Flat) -> Flat:
+    def stage(z: Flat, level: Level) -> tuple[Flat, None]:
+        found = solve_stage(z, level)
+        return jnp.where(jnp.isfinite(found).all(), found, z), None
+
+    return jax.lax.scan(stage, start, levels())[0]  # type: ignore[no-any-return]
+
+
+def lbfgs(objective: Objective) -> Flat:
+    """`jaxopt.LBFGS` with backtracking."""
+    import jaxopt
+
+    def value_and_slope(z: Flat, level: Level) -> tuple[Float[Array, ""], Flat]:
+        value, slope = objective.value_and_slope(z, level)
+        return value / level.hard, slope / level.hard
+
+    def stage(z: Flat, level: Level) -> Flat:
+        solver = jaxopt.LBFGS(
+            value_and_slope, value_and_grad=True, maxiter=STEPS, tol=1e-9, linesearch="backtracking",
+            max_stepsize=50.0, maxls=25, history_size=12, implicit_diff=False, jit=True,
+        )  # fmt: skip
+        return solver.run(z, level).params  # type: ignore[no-any-return]
+
+    return _staged(stage, objective.start)
+
+
+def bfgs(objective: Objective) -> Flat:
+    """`optimistix.BFGS`."""
+    import optimistix
+
+    loss = scalar(objective)
+
+    def stage(z: Flat, level: Level) -> Flat:
+        solver = optimistix.BFGS(rtol=1e-9, atol=1e-9)
+        return optimistix.minimise(loss, solver, z, args=level, max_steps=3 * STEPS, throw=False).value  # type: ignore[no-any-return]
+
+    return _staged(stage, objective.start)
+
+
+def lm(objective: Coherent) -> Flat:
+    """`optimistix.LevenbergMarquardt`, with normal equations solved by elimination (see `linear`)."""
+    import optimistix
+
+    residuals = vector(objective)
+
+    def stage(z: Flat, level: Level) -> Flat:
+        solver = optimistix.LevenbergMarquardt(rtol=1e-8, atol=1e-8, linear_solver=_elimination())
+        return optimistix.least_squares(residuals, solver, z, args=level, max_steps=STEPS, throw=False).value  # type: ignore[no-any-return]
+
+    return _staged(stage, objective.start)
+
+
+def _elimination() -> Any:
+    """A lineax solver for least squares that needs no LAPACK call."""
+    import lineax
+    from jax.flatten_util import ravel_pytree
+
+    class Elimination(lineax.AbstractLinearSolver):  # type: ignore[misc]
+        def init(self, operator: Any, options: Any) -> Float[Array, "M V"]:
+            return operator.as_matrix()
+
+        def compute(self, state: Float[Array, "M V"], vector: Any, options: Any) -> Any:
+            right = ravel_pytree(vector)[0]
+            normal = state.T @ state
+            # A parameter that nothing depends on has an empty row.
+            idle = jnp.where(jnp.diagonal(normal) > 0, 1e-14 * jnp.trace(normal), 1.0)
+            solution = solve_positive(normal + jnp.diag(idle), state.T @ right, DOF)
+            return solution, lineax.RESULTS.successful, {}
+
+        def transpose(self, state: Any, options: Any) -> Any:
+            raise NotImplementedError
+
+        def conj(self, state: Any, options: Any) -> Any:
+            return state, options
+
+        def assume_full_rank(self) -> bool:
+            return True
+
+    return Elimination()
