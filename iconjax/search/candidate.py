@@ -156,7 +156,10 @@ def _alignment_weights(setting: Setting, state: State, sizes: Sizes) -> Float[np
     loose = {(setting.relations[e].a, setting.relations[e].b) for e in state.relations}
     for f, a in enumerate(setting.facts.alignments[: sizes.alignments]):
         asked = {kind for t in setting.intent.things_of(a.a) for kind in t.kinds}
-        if a.reason == "ground" and "rotate" in asked:
+        other = {kind for t in setting.intent.things_of(a.b) for kind in t.kinds} if a.b is not None else set()
+        if "rotate" in asked | other:
+            continue
+        if a.reason in ("touching", "overhang") and "translate" in asked ^ other:
             continue
         if a.reason in ("touching", "overhang") and ((a.a, a.b) in loose or (a.b, a.a) in loose):
             continue

@@ -75,6 +75,9 @@ class Judge:
     def __init__(self, setting: Setting, shapes: Shapes, costs: Costs) -> None:
         self.setting, self.shapes, self.costs = setting, shapes, costs
         self.unit = setting.size / 512
+        self.piece_area: dict[int, float] = {}
+        for piece, area in zip(setting.pieces, setting.facts.area, strict=True):
+            self.piece_area[piece] = self.piece_area.get(piece, 0.0) + float(area)
         self.asked = {
             i: frozenset(k for t in setting.intent.things_of(i) for k in t.kinds)
             for i in range(len(setting.facts.area))
@@ -133,17 +136,31 @@ class Judge:
         if slip < 1.0:
             return "ST", 0.0, ""
         loss = self.shapes.loss(r, matrices)
+        stretched = np.abs(np.log(motion.scales[r.a] / np.maximum(motion.scales[r.b], 1e-6))).max() > 0.02
+        if stretched:  # a part that changes size cannot but slide along one that does not
+            along *= self.costs.stretched_slide
         slide = self.costs.slid[kind] * min(1.0, along / self.costs.slide_scale)
         slide += self.costs.pulled[kind] * min(1.0, across / self.costs.pull_scale)
+        if r.scope == "inter":
+            slide *= 1 + self.costs.carrier * self._carried(r, motion)
         # A broad contact, along much of both outlines, binds the two more than a touch in passing.
         slide *= 1 + self.costs.broad * max(0.0, min(r.contact.share, r.contact.share_b) - 0.2)
         slide = min(slide, self.costs.broken[kind])
         cost = slide + (self.costs.broken[kind] - slide) * loss if loss > 0 else slide
         return ("N" if loss > 0.5 else "WK" if slip > 4.0 else "ST"), cost, "broken" if loss > 0.5 else "slid"
 
+    def _carried(self, r: Relation, motion: Motion) -> float:
+        """How much larger the side that moves is than the one that stays behind, 0..1: the larger carries the smaller
+        along, while a small thing may well slide along a large one."""
+        if self.setting.facts.grounded[r.b if motion.shift[r.a] >= motion.shift[r.b] else r.a]:
+            return 0.0  # what stands on the ground carries, and is not carried
+        areas = [self.piece_area[self.setting.pieces[i]] for i in (r.a, r.b)]
+        moving, staying = areas if motion.shift[r.a] >= motion.shift[r.b] else areas[::-1]
+        return max(0.0, 2 * moving / (moving + staying) - 1)
+
     def _unasked(self, matrices, motion, add) -> None:  # type: ignore[no-untyped-def]
         """Cost of every distinct motion that nobody asked for, once for all segments that share it."""
-        facts, costs = self.setting.facts, self.costs
+        facts, costs, features = self.setting.facts, self.costs, self.shapes.features(matrices)
         asked_motions = [matrices[i] for i, kinds in self.asked.items() if kinds]
         groups: list[tuple[Float[np.ndarray, "6"], list[int]]] = []
         for i in np.flatnonzero(motion.shift > STILL_PX * self.unit):
@@ -168,8 +185,9 @@ class Judge:
                     add("turned", costs.turned * min(1.0, abs(motion.turn[i]) / 10))
                 self._distorted(i, motion, add)
                 if facts.grounded[i]:
-                    weight = costs.uprooted * (0.5 if along else 1.0)
-                    add("uprooted", weight * min(1.0, motion.shift[i] / (20 * self.unit)))
+                    weight = costs.uprooted * (0.5 if along else 1.0) * (1 + min(1.0, abs(motion.turn[i]) / 10))
+                    lifted = abs(features[i, 5] - facts.features[i, 5]) / self.unit
+                    add("uprooted", weight * min(1.0, lifted / 20))
 
     def _distorted(self, i: int, motion: Motion, add) -> None:  # type: ignore[no-untyped-def]
         stretch = float(np.abs(np.log(np.maximum(motion.scales[i], 1e-3))).max())
@@ -214,6 +232,7 @@ class Judge:
         """Alignments lost, things pushed off the canvas, new overlaps."""
         facts = self.setting.facts
         features = self.shapes.features(matrices)
+        lost = 0.0
         for a in facts.alignments:
             still = a.b is None or np.allclose(matrices[a.a], matrices[a.b])
             if still and (a.b is not None or motion.shift[a.a] < STILL_PX):
@@ -222,7 +241,8 @@ class Judge:
             after = features[a.a, a.feature] - (0 if a.b is None else features[a.b, a.feature])
             off = a.off(before, after) / self.unit
             if off > 1.5:
-                add("misaligned", self.costs.misaligned[a.reason] * min(1.0, off / 15))
+                lost += self.costs.misaligned[a.reason] * min(1.0, off / 15)
+        add("misaligned", min(lost, self.costs.misaligned_most))
         add("off canvas", self.costs.off_canvas * self.shapes.off_canvas(features))
         moved = np.flatnonzero(motion.shift > STILL_PX * self.unit)
         add("collision", self.costs.collision * self.shapes.collisions(matrices, features, moved))

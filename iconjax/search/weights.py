@@ -39,7 +39,7 @@ class Forces:
     middle: float = 0.34
     end: float = 0.33
     align: Mapping[str, float] = field(
-        default_factory=lambda: {"touching": 20.0, "siblings": 2.0, "ground": 4.0, "support": 6.0, "overhang": 8.0}
+        default_factory=lambda: {"touching": 20.0, "siblings": 2.0, "ground": 4.0, "support": 6.0, "overhang": 20.0}
     )
     asked_ground: float = 0.2
     canvas: float = 30.0
@@ -89,15 +89,17 @@ class Costs:
         broken: a relation that no longer holds, by type.
         slid: a relation that still holds but whose sides slid along each other by `slide_scale` or more, by type (in
             proportion below that).
+        stretched_slide: share of the sliding that counts where one side changes size and the other does not.
         pulled: the same for sides that came apart or into each other by `pull_scale` or more, across the contact.
         broad: how much dearer that gets for each share of both outlines, beyond a fifth, that lies at the contact.
+        carrier: how much dearer it gets where the larger of two things moves and leaves the smaller behind.
         moved: another set of parts that moves in a way of its own though nobody asked, plus `moved_area` times its area.
         along: the same where it goes along with something that was asked to move.
         turned, stretched: added where it turns or changes size; `squashed` where a disc loses its shape.
         uprooted: something that stood on the ground leaves it.
         extra: an unasked kind of motion of an asked part.
         idle_specifier: a kind of motion that was asked and did not happen.
-        misaligned: an alignment lost, by its reason.
+        misaligned: an alignment lost, by its reason; all of them at most `misaligned_most`.
         off_canvas: per share of a segment's box outside the picture.
         collision: a new overlap of things that were apart, per share of the smaller.
     """
@@ -114,9 +116,11 @@ class Costs:
         default_factory=lambda: {"crucial": 4.0, "intra": 1.5, "inter": 2.0, "inside": 2.0, "near": 0.5}
     )
     broad: float = 4.0
+    carrier: float = 2.0
     slide_scale: float = 50.0
+    stretched_slide: float = 0.4
     pull_scale: float = 30.0
-    moved: float = 1.0
+    moved: float = 0.7
     moved_area: float = 5.0
     along: float = 0.3
     turned: float = 1.5
@@ -126,7 +130,8 @@ class Costs:
     extra: float = 3.0
     idle_specifier: float = 8.0
     misaligned: Mapping[str, float] = field(
-        default_factory=lambda: {"touching": 1.0, "siblings": 1.0, "ground": 0.5, "support": 3.0, "overhang": 0.5}
+        default_factory=lambda: {"touching": 1.0, "siblings": 0.3, "ground": 0.5, "support": 3.0, "overhang": 1.5}
     )
+    misaligned_most: float = 3.0
     off_canvas: float = 20.0
     collision: float = 2.0

@@ -46,8 +46,8 @@ def lbfgs(objective: Objective) -> Flat:
 
     def stage(z: Flat, level: Level) -> Flat:
         solver = jaxopt.LBFGS(
-            value_and_slope, value_and_grad=True, maxiter=STEPS, tol=1e-9, linesearch="backtracking",
-            max_stepsize=50.0, maxls=25, history_size=12, implicit_diff=False, jit=True,
+            value_and_slope, value_and_grad=True, maxiter=STEPS, tol=1e-6, linesearch="zoom",
+            max_stepsize=1.0, maxls=15, stop_if_linesearch_fails=True, implicit_diff=False,
         )  # fmt: skip
         return solver.run(z, level).params  # type: ignore[no-any-return]
 
