@@ -143,6 +143,7 @@ class Judge:
         slide += self.costs.pulled[kind] * min(1.0, across / self.costs.pull_scale)
         if r.scope == "inter":
             slide *= 1 + self.costs.carrier * self._carried(r, motion)
+            slide *= self.costs.bearing if self._bears(r, motion) else 1.0
         # A broad contact, along much of both outlines, binds the two more than a touch in passing.
         slide *= 1 + self.costs.broad * max(0.0, min(r.contact.share, r.contact.share_b) - 0.2)
         slide = min(slide, self.costs.broken[kind])
@@ -157,6 +158,16 @@ class Judge:
         areas = [self.piece_area[self.setting.pieces[i]] for i in (r.a, r.b)]
         moving, staying = areas if motion.shift[r.a] >= motion.shift[r.b] else areas[::-1]
         return max(0.0, 2 * moving / (moving + staying) - 1)
+
+    def _bears(self, r: Relation, motion: Motion) -> bool:
+        """Whether one side turns and the other, which stands on the ground, stays: a stand bears what spins on it."""
+        for turning, standing in ((r.a, r.b), (r.b, r.a)):
+            spins = "rotate" in self.asked[turning] and abs(motion.turn[turning]) > 1.0
+            pieces = [i for i, p in enumerate(self.setting.pieces) if p == self.setting.pieces[standing]]
+            grounded = self.setting.facts.grounded[pieces].any()
+            if spins and grounded and motion.shift[standing] < STILL_PX * self.unit:
+                return True
+        return False
 
     def _unasked(self, matrices, motion, add) -> None:  # type: ignore[no-untyped-def]
         """Cost of every distinct motion that nobody asked for, once for all segments that share it."""

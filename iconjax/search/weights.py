@@ -93,6 +93,7 @@ class Costs:
         pulled: the same for sides that came apart or into each other by `pull_scale` or more, across the contact.
         broad: how much dearer that gets for each share of both outlines, beyond a fifth, that lies at the contact.
         carrier: how much dearer it gets where the larger of two things moves and leaves the smaller behind.
+        bearing: share of it that counts between what turns on request and a stand that stays.
         moved: another set of parts that moves in a way of its own though nobody asked, plus `moved_area` times its area.
         along: the same where it goes along with something that was asked to move.
         turned, stretched: added where it turns or changes size; `squashed` where a disc loses its shape.
@@ -117,6 +118,7 @@ class Costs:
     )
     broad: float = 4.0
     carrier: float = 2.0
+    bearing: float = 0.3
     slide_scale: float = 50.0
     stretched_slide: float = 0.4
     pull_scale: float = 30.0

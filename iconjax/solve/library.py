@@ -37,17 +37,22 @@ def _staged(solve_stage: Any, start: Flat) -> Flat:
 
 
 def lbfgs(objective: Objective) -> Flat:
-    """`jaxopt.LBFGS` with backtracking."""
+    """`jaxopt.LBFGS` with a backtracking line search."""
     import jaxopt
 
-    def value_and_slope(z: Flat, level: Level) -> tuple[Float[Array, ""], Flat]:
+    def loss(z: Flat, level: Level) -> tuple[tuple[Float[Array, ""], None], Flat]:
         value, slope = objective.value_and_slope(z, level)
-        return value / level.hard, slope / level.hard
+        return (value / level.hard, None), slope / level.hard
 
     def stage(z: Flat, level: Level) -> Flat:
+        # In a batch both sides of a branch run: the conditions that evaluate value and slope apart cost twice. A loose
+        # curvature condition keeps the search from shrinking on until it gives up.
+        search = jaxopt.BacktrackingLineSearch(
+            loss, value_and_grad=True, has_aux=True, condition="wolfe", c2=0.999, decrease_factor=0.4, maxiter=12
+        )
         solver = jaxopt.LBFGS(
-            value_and_slope, value_and_grad=True, maxiter=STEPS, tol=1e-6, linesearch="zoom",
-            max_stepsize=1.0, maxls=15, stop_if_linesearch_fails=True, implicit_diff=False,
+            loss, value_and_grad=True, has_aux=True, maxiter=STEPS, tol=1e-6, linesearch=search, linesearch_init="max",
+            stop_if_linesearch_fails=True, history_size=12, implicit_diff=False,
         )  # fmt: skip
         return solver.run(z, level).params  # type: ignore[no-any-return]
 
