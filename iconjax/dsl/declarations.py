@@ -51,6 +51,7 @@ class Operator:
         extra: "points" or "contact" when the function takes the two material points as a last argument, an
             array (x, y, u, v) of places before the edit: from the program, or supplied by the compiler.
         residual_size: length of the residual of a specifier, 1 for a scalar.
+        outlines: compares two whole outlines, which is dear to compile and to run.
     """
 
     name: str
@@ -65,6 +66,7 @@ class Operator:
     named: bool = False
     extra: str = ""
     residual_size: int = 1
+    outlines: bool = False
 
     @property
     def is_motion(self) -> bool:
@@ -139,7 +141,7 @@ def _load(file: Path) -> dict[str, Any]:
 def _operator(entry: Mapping[str, Any], group: str, file: Path) -> Operator:
     where = f"{file.name}: operator {entry.get('name', '?')}"
     required = {"name", "params", "returns", "meaning", "example"}
-    optional = {"unit", "variadic", "structural", "named", "extra", "residual_size"}
+    optional = {"unit", "variadic", "structural", "named", "extra", "residual_size", "outlines"}
     if missing := sorted(required - entry.keys()):
         raise ConfigError(f"{where}: {', '.join(missing)} missing")
     if unknown := sorted(entry.keys() - required - optional):

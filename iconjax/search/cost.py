@@ -12,6 +12,7 @@ from iconjax.search.shapes import Shapes
 from iconjax.search.state import State, scale_kind
 from iconjax.search.weights import Costs
 from iconjax.relations.types import Relation
+from iconjax.search.facts import Mirror
 
 STILL_PX = 0.35
 """Motion of less than this many pixels (at 512 x 512) is none."""
@@ -239,6 +240,12 @@ class Judge:
             elif scale_kind(state.mode(i)) and stretch_i > 1.2:
                 add("extra", 0.5 * (stretch_i - 1.2))
 
+    def _turned(self, m: Mirror, motion: Motion) -> bool:
+        """Whether what a pair mirrors about, or one of the pair, turned or was asked to move by itself."""
+        return any(abs(motion.turn[i]) > 0.5 for i in (m.a, m.b, m.about)) or bool(
+            self.asked[m.a] ^ self.asked[m.b]
+        )
+
     def _surroundings(self, matrices, motion, add) -> None:  # type: ignore[no-untyped-def]
         """Alignments lost, things pushed off the canvas, new overlaps."""
         facts = self.setting.facts
@@ -254,6 +261,8 @@ class Judge:
             if off > 1.5:
                 lost += self.costs.misaligned[a.reason] * min(1.0, off / 15)
         add("misaligned", min(lost, self.costs.misaligned_most))
+        bent = [m.off(features) - m.off(facts.features) for m in facts.mirrors if not self._turned(m, motion)]
+        add("asymmetric", min(self.costs.asymmetric_most, sum(self.costs.asymmetric * min(1.0, d / self.unit / 15) for d in bent if d > 2)))
         add("off canvas", self.costs.off_canvas * self.shapes.off_canvas(features))
         moved = np.flatnonzero(motion.shift > STILL_PX * self.unit)
         add("collision", self.costs.collision * self.shapes.collisions(matrices, features, moved))

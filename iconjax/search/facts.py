@@ -10,12 +10,17 @@ from jaxtyping import Bool, Float
 
 from iconjax.relations.types import Relation
 from iconjax.scene.sampling import elongation, principal_axis, support_points
-from iconjax.scene.types import Scene
+from iconjax.scene.types import Scene, Segment
 
 ALIGNED = 0.005
 """Box features that differ by less than this share of the picture's larger side count as aligned."""
 GROUND = 0.03
 """A segment stands on the ground when its lower edge is within this share of the picture's lowest one."""
+
+FLAT = 0.3
+"""Share of a segment's width that its lowest slice has at least where it stands on it."""
+SYMMETRIC = 0.9
+"""Overlap of a picture with itself upside down from which on it counts as seen from above."""
 
 
 @dataclass(frozen=True)
@@ -46,6 +51,27 @@ class Alignment:
 
 
 @dataclass(frozen=True)
+class Mirror:
+    """Segments `a` and `b` lie on both sides of the middle of `about`, equally far and equally large.
+
+    Attributes:
+        axis: 0 where they mirror each other from left to right, 1 from top to bottom.
+    """
+
+    a: int
+    b: int
+    about: int
+    axis: int
+
+    def off(self, features: Float[np.ndarray, "n 6"]) -> float:
+        """How far the two are from mirroring each other, px."""
+        low, mid, high = 3 * self.axis, 3 * self.axis + 1, 3 * self.axis + 2
+        centre = 2 * features[self.about, mid]
+        outer = abs(centre - features[self.a, low] - features[self.b, high])
+        return float(max(outer, abs(centre - features[self.a, high] - features[self.b, low])))
+
+
+@dataclass(frozen=True)
 class Facts:
     """What the search needs to know about the unedited scene, by position of the segment.
 
@@ -58,6 +84,7 @@ class Facts:
         host: the segment that each detail lies in or on, None where it is no detail.
         grounded: segments that stand on the ground.
         alignments: features that coincide.
+        mirrors: pairs of segments that mirror each other about a third.
     """
 
     features: Float[np.ndarray, "n 6"]
@@ -68,6 +95,7 @@ class Facts:
     host: tuple[int | None, ...]
     grounded: Bool[np.ndarray, " n"]
     alignments: tuple[Alignment, ...]
+    mirrors: tuple[Mirror, ...]
 
 
 def gather_facts(scene: Scene, relations: Sequence[Relation]) -> Facts:
@@ -79,7 +107,7 @@ def gather_facts(scene: Scene, relations: Sequence[Relation]) -> Facts:
     disc = np.pi / 4 * (x1 - x0) * (y1 - y0)
     hull = np.array([_polygon_area(support_points(s.loops, 64)) for s in scene.segments])
     square = np.minimum(x1 - x0, y1 - y0) / np.maximum(np.maximum(x1 - x0, y1 - y0), 1e-9)
-    grounded = y1 >= y1.max() - GROUND * scene.size
+    grounded = _grounded(scene, boxes)
     host = _hosts(scene, relations)
     return Facts(
         features=features,
@@ -90,7 +118,27 @@ def gather_facts(scene: Scene, relations: Sequence[Relation]) -> Facts:
         host=host,
         grounded=grounded,
         alignments=_alignments(scene, relations, features, grounded),
+        mirrors=_mirrors(scene, relations, features),
     )
+
+
+def _mirrors(
+    scene: Scene, relations: Sequence[Relation], features: Float[np.ndarray, "n 6"]
+) -> tuple[Mirror, ...]:
+    near: dict[int, list[int]] = {}
+    for r in relations:
+        near.setdefault(r.a, []).append(r.b)
+        near.setdefault(r.b, []).append(r.a)
+    found = []
+    for about, others in near.items():
+        for k, a in enumerate(others):
+            for b in others[k + 1 :]:
+                for axis in (0, 1):
+                    mirror = Mirror(a, b, about, axis)
+                    apart = abs(features[a, 3 * axis + 1] - features[b, 3 * axis + 1]) > 0.02 * scene.size
+                    if apart and mirror.off(features) <= 0.012 * scene.size:
+                        found.append(mirror)
+    return tuple(found)
 
 
 def _overhangs(
@@ -110,6 +158,31 @@ def _overhangs(
                     room = float(features[one, feature] - features[other, feature])
                     found.append(Alignment(one, other, feature, "overhang", room, 4.0 * scene.size))
     return found
+
+
+def _grounded(scene: Scene, boxes: Float[np.ndarray, "n 4"]) -> Bool[np.ndarray, " n"]:
+    """Segments that the picture stands on: at its lower edge, and flat there or level with another one.
+
+    A picture that looks the same upside down has no ground.
+    """
+    whole = np.any([s.mask for s in scene.segments], axis=0)
+    rows, cols = np.flatnonzero(whole.any(1)), np.flatnonzero(whole.any(0))
+    crop = whole[rows[0] : rows[-1] + 1, cols[0] : cols[-1] + 1]
+    if (crop & crop[::-1]).sum() > SYMMETRIC * (crop | crop[::-1]).sum():
+        return np.zeros(len(boxes), bool)
+    bottom = boxes[:, 3]
+    low = bottom >= bottom.max() - GROUND * scene.size
+    level = np.abs(bottom[:, None] - bottom) <= 2 + ALIGNED * scene.size
+    apart = (boxes[:, None, 0] > boxes[:, 2]) | (boxes[:, None, 2] < boxes[:, 0])
+    paired = (level & apart & low & low[:, None]).any(1)
+    return low & (paired | np.array([_flat(s) for s in scene.segments]))
+
+
+def _flat(segment: Segment) -> bool:
+    """Whether the lowest slice of a segment is broad."""
+    rows, cols = np.nonzero(segment.mask)
+    slice_ = cols[rows >= rows.max() - max(2, 0.04 * np.ptp(rows))]
+    return bool(np.ptp(slice_) + 1 >= FLAT * (np.ptp(cols) + 1))
 
 
 def _polygon_area(loop: Float[np.ndarray, "v 2"]) -> float:

@@ -26,9 +26,13 @@ def flips(setting: Setting, state: State, judgement: Judgement) -> Iterator[Stat
         for other in ("WK", "N"):
             if other != status:
                 yield state.with_relations({e: other}, f"relation {e} to {other}")
+    details = [i for i in hot if state.modes[i] == f"W:{setting.facts.host[i]}" and not setting.intent.things_of(i)]
+    if len(details) > 1:
+        yield state.with_modes({i: "T" for i in details}, "all details keep their shape")
+    for i in details:
+        yield state.with_modes({i: "T"}, f"detail {i} keeps its shape")
     for i in hot:
         if state.modes[i] == f"W:{setting.facts.host[i]}" and not setting.intent.things_of(i):
-            yield state.with_modes({i: "T"}, f"detail {i} keeps its shape")
             continue
         for changes, origin in _segment_flips(setting, state, i, judgement.unmet):
             yield state.with_modes(changes, origin)
@@ -88,6 +92,3 @@ def _sibling_flips(setting: Setting, state: State, hot: Sequence[int]) -> Iterat
         for other in FREEDOMS:
             if other != mode:
                 yield state.with_modes({i: other for i in alike}, f"all of {mode} to {other}")
-    details = [i for i in hot if state.modes[i] == f"W:{setting.facts.host[i]}" and not setting.intent.things_of(i)]
-    if len(details) > 1:
-        yield state.with_modes({i: "T" for i in details}, "all details keep their shape")

@@ -9,7 +9,7 @@ import networkx as nx
 import numpy as np
 
 from iconjax.dsl.check import check_or_raise
-from iconjax.dsl.nodes import Program
+from iconjax.dsl.nodes import Call, Program, walk
 from iconjax.dsl.registry import Registry, default_registry
 from iconjax.dsl.units import Unit
 from iconjax.errors import InputError
@@ -27,8 +27,8 @@ from iconjax.solve.engine import Engine
 from iconjax.solve.regions import index_array, scene_hulls
 from iconjax.solve.table import OperatorTable, operator_table
 
-SEGMENTS = (8, 16, 32, 64, 128, 256, 512)
-BODIES = (4, 8, 16, 32, 64, 128, 256, 512)
+SEGMENTS = (16, 64, 256, 512)
+BODIES = (8, 16, 32, 64, 128, 256, 512)
 HULL = 24
 
 
@@ -86,8 +86,8 @@ def prepare(scene: Scene, program: Program, config: SearchConfig, registry: Regi
     motion = {o.name for o in registry.operators.values() if o.is_motion}
     units = tuple(None if c.name in motion else checked.unit(c) for c in program.calls)
     n = static_size(len(scene.segments), SEGMENTS, "segments")
-    sizes = Sizes(n, _grown(len(relations), 2 * n), _grown(len(facts.alignments), 2 * n), BODIES[0])
-    table = operator_table(registry)
+    sizes = Sizes(n, _grown(len(relations), 2 * n), _grown(len(facts.alignments), 4 * n), BODIES[0])
+    table = operator_table(registry, frozenset(node.name for c in program.calls for node in walk(c) if isinstance(node, Call)))
     compiled = compile_program(
         program, units, scene, relations, table,
         {o.name: o.residual_size for o in registry.operators.values()},
@@ -115,7 +115,7 @@ def _supports(facts: Facts, intent: Intent) -> list[Alignment]:
         lowest = max(above, key=lambda i: facts.features[i, 5])
         top = min(below, key=lambda i: facts.features[i, 3])
         width = float(facts.features[top, 2] - facts.features[top, 0])
-        out.append(Alignment(lowest, top, 1, "support", 0.25 * width, 0.25 * width, 0.0))
+        out.append(Alignment(lowest, top, 1, "support", 0.1 * width, 0.1 * width, 0.0))
     return out
 
 

@@ -69,6 +69,10 @@ def asked_state(setting: Setting) -> State:
             modes[leader] = asked_mode(facts, intent.things_of(leader), leader, len(group) == 1)
             for i in group - {leader}:
                 modes[i] = f"W:{leader}"
+    for i, host in enumerate(facts.host):
+        kind = scale_kind(modes[_root(modes, i)]) if modes[i] == f"W:{host}" else ""
+        if kind not in ("", "Su") and facts.round[i] and i not in asked:
+            modes[i] = "T"  # a disc on something that changes its proportions stays a disc
     for group in intent.together:
         free = [i for i in group if i not in intent.fixed]
         leader = next((i for i in free if modes[i] not in ("N",) and not modes[i].startswith("W:")), free[0] if free else None)
@@ -76,6 +80,10 @@ def asked_state(setting: Setting) -> State:
             if i != leader:
                 modes[i] = f"W:{leader}"
     return State(tuple(modes), {}, "only what was asked")
+
+
+def _root(modes: Sequence[Mode], i: int) -> int:
+    return State(tuple(modes)).root(i)
 
 
 def hanging(setting: Setting, base: State) -> list[set[int]]:

@@ -101,6 +101,7 @@ class Costs:
         extra: an unasked kind of motion of an asked part.
         idle_specifier: a kind of motion that was asked and did not happen.
         misaligned: an alignment lost, by its reason; all of them at most `misaligned_most`.
+        asymmetric: a symmetry of a pair about a third segment lost; all of them at most `asymmetric_most`.
         off_canvas: per share of a segment's box outside the picture.
         collision: a new overlap of things that were apart, per share of the smaller.
     """
@@ -135,5 +136,7 @@ class Costs:
         default_factory=lambda: {"touching": 1.0, "siblings": 0.3, "ground": 0.5, "support": 3.0, "overhang": 1.5}
     )
     misaligned_most: float = 3.0
+    asymmetric: float = 1.5
+    asymmetric_most: float = 3.0
     off_canvas: float = 20.0
     collision: float = 2.0

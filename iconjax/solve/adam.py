@@ -33,17 +33,11 @@ def blunt_to_sharp(done: Float[Array, ""]) -> Level:
     return Level(eps, hard)
 
 
-def minimise(objective: Objective, iterations: int, good: float = -1.0, continued: bool = True) -> Flat:
-    """Run Adam from the objective's start; the best point that was visited at the sharpest level.
-
-    Args:
-        iterations: at most this many.
-        good: a loss that is low enough to stop at.
-        continued: whether the loss goes from blunt to sharp on the way.
-    """
+def minimise(objective: Objective, iterations: int) -> Flat:
+    """Run Adam from the objective's start, `iterations` steps at most; the best point seen at the sharpest level."""
 
     def level_at(count: Int[Array, ""]) -> Level:
-        return blunt_to_sharp(count / iterations) if continued else Level(*map(jnp.asarray, SHARP))
+        return blunt_to_sharp(count / iterations) if objective.staged else Level(*map(jnp.asarray, SHARP))
 
     def body(state: _State) -> _State:
         count = state.count + 1
@@ -66,5 +60,5 @@ def minimise(objective: Objective, iterations: int, good: float = -1.0, continue
 
     zero = jnp.zeros_like(objective.start)
     first = _State(objective.start, zero, zero, objective.start, jnp.asarray(jnp.inf), jnp.asarray(0))
-    last = jax.lax.while_loop(lambda s: (s.count < iterations) & (s.least > good), body, first)
+    last = jax.lax.while_loop(lambda s: (s.count < iterations) & (s.least > objective.good), body, first)
     return last.best

@@ -19,8 +19,10 @@ STEPS = 40
 """Most iterations of a stage."""
 
 
-def levels() -> Level:
-    """The levels of all stages; both attributes are (STAGES,)."""
+def levels(staged: bool = True) -> Level:
+    """The levels of all stages, both attributes (STAGES,); one level where the loss has no more."""
+    if not staged:
+        return Level(jnp.ones(1), jnp.ones(1))
     share = jnp.linspace(0.0, 1.0, STAGES)
     return Level(
         irls.EPS_START * (irls.EPS_END / irls.EPS_START) ** share,
@@ -28,12 +30,12 @@ def levels() -> Level:
     )
 
 
-def _staged(solve_stage: Any, start: Flat) -> Flat:
+def _staged(solve_stage: Any, objective: Objective) -> Flat:
     def stage(z: Flat, level: Level) -> tuple[Flat, None]:
         found = solve_stage(z, level)
         return jnp.where(jnp.isfinite(found).all(), found, z), None
 
-    return jax.lax.scan(stage, start, levels())[0]  # type: ignore[no-any-return]
+    return jax.lax.scan(stage, objective.start, levels(objective.staged))[0]  # type: ignore[no-any-return]
 
 
 def lbfgs(objective: Objective) -> Flat:
@@ -45,18 +47,19 @@ def lbfgs(objective: Objective) -> Flat:
         return (value / level.hard, None), slope / level.hard
 
     def stage(z: Flat, level: Level) -> Flat:
-        # In a batch both sides of a branch run: the conditions that evaluate value and slope apart cost twice. A loose
-        # curvature condition keeps the search from shrinking on until it gives up.
+        # Unrolled loops would branch on each candidate's progress; in a batch every operator of the DSL then runs for
+        # every leaf. A loose curvature condition keeps the line search from shrinking on until it gives up.
         search = jaxopt.BacktrackingLineSearch(
-            loss, value_and_grad=True, has_aux=True, condition="wolfe", c2=0.999, decrease_factor=0.4, maxiter=12
+            loss, value_and_grad=True, has_aux=True, condition="wolfe", c2=0.999, decrease_factor=0.4, maxiter=12,
+            unroll=False,
         )
         solver = jaxopt.LBFGS(
             loss, value_and_grad=True, has_aux=True, maxiter=STEPS, tol=1e-6, linesearch=search, linesearch_init="max",
-            stop_if_linesearch_fails=True, history_size=12, implicit_diff=False,
+            stop_if_linesearch_fails=False, history_size=12, implicit_diff=False, unroll=False,
         )  # fmt: skip
         return solver.run(z, level).params  # type: ignore[no-any-return]
 
-    return _staged(stage, objective.start)
+    return _staged(stage, objective)
 
 
 def bfgs(objective: Objective) -> Flat:
@@ -69,7 +72,7 @@ def bfgs(objective: Objective) -> Flat:
         solver = optimistix.BFGS(rtol=1e-9, atol=1e-9)
         return optimistix.minimise(loss, solver, z, args=level, max_steps=3 * STEPS, throw=False).value  # type: ignore[no-any-return]
 
-    return _staged(stage, objective.start)
+    return _staged(stage, objective)
 
 
 def lm(objective: Coherent) -> Flat:
@@ -82,7 +85,7 @@ def lm(objective: Coherent) -> Flat:
         solver = optimistix.LevenbergMarquardt(rtol=1e-8, atol=1e-8, linear_solver=_elimination())
         return optimistix.least_squares(residuals, solver, z, args=level, max_steps=STEPS, throw=False).value  # type: ignore[no-any-return]
 
-    return _staged(stage, objective.start)
+    return _staged(stage, objective)
 
 
 def _elimination() -> Any:

@@ -45,7 +45,12 @@ class Objective(Protocol):
         start: (V,) where to begin.
         free: (V,) 1 where a parameter may move.
         most: (V,) longest sensible step.
+        staged: whether the loss has levels of sharpness.
+        good: a loss that is low enough to stop at.
     """
+
+    staged: bool
+    good: float
 
     @property
     def start(self) -> Flat: ...  # noqa: D102
@@ -63,6 +68,9 @@ class Objective(Protocol):
 
 class Coherent:
     """The default strategy's loss (`irls.loss_of`) of one candidate."""
+
+    staged = True
+    good = -1.0
 
     def __init__(self, problem: Problem, cand: Candidate, table: OperatorTable, wide: bool) -> None:
         self.problem, self.cand, self.table, self.wide = problem, cand, table, wide

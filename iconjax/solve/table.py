@@ -51,21 +51,31 @@ def _key(name: str, component: int, unit: Unit | None) -> str:
     return f"{name}#{component}" + (f"@{unit.value}" if unit else "")
 
 
-_tables: dict[int, tuple[Registry, OperatorTable]] = {}
+_tables: dict[tuple[int, bool], tuple[Registry, OperatorTable]] = {}
 
 
-def operator_table(registry: Registry) -> OperatorTable:
-    """Number the operators of `registry` that have a function: of specifiers the residuals, of others the values."""
-    if id(registry) not in _tables:  # the registry is kept, so that its id stays its own
-        _tables[id(registry)] = (registry, _number(registry))
-    return _tables[id(registry)][1]
+def operator_table(registry: Registry, used: frozenset[str] = frozenset()) -> OperatorTable:
+    """Number the operators of `registry` that have a function: of specifiers the residuals, of others the values.
+
+    Comparing the outlines of two segments takes most of the time to compile. A program that `used` none of these
+    operators gets a table without them; so there are two tables, whatever the program.
+    """
+    pairs = any(_compares(registry.operators[name]) for name in used) or not used
+    key = (id(registry), pairs)
+    if key not in _tables:  # the registry is kept, so that its id stays its own
+        _tables[key] = (registry, _number(registry, pairs))
+    return _tables[key][1]
 
 
-def _number(registry: Registry) -> OperatorTable:
+def _compares(operator: Operator) -> bool:
+    return operator.has_function and operator.outlines
+
+
+def _number(registry: Registry, pairs: bool) -> OperatorTable:
     leaves: list[tuple[str, str, Callable[..., Any]]] = []
     steps: list[tuple[str, Callable[..., Any]]] = []
     for operator in registry.operators.values():
-        if not operator.has_function or operator.returns == "Segment":
+        if not operator.has_function or operator.returns == "Segment" or (_compares(operator) and not pairs):
             continue
         plain = _function(registry, operator, None)
         for unit in (None, Unit.ANGLE):

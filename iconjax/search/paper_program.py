@@ -1,0 +1,122 @@
+"""The paper's secondary constraints as rows of the same program as the primary ones, to be switched by a mask."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Float
+
+from iconjax.dsl.nodes import Call, Point, Program, SegmentRef
+from iconjax.dsl.registry import Registry
+from iconjax.dsl.units import Unit
+from iconjax.relations.types import Relation
+from iconjax.search.setup import Setup
+from iconjax.solve.arrays import Code, Regions
+from iconjax.solve.compile import CompiledProgram, compile_program
+from iconjax.solve.regions import index_array
+from iconjax.solve.violation import Violations
+
+TIERS = ((16, 16, 8, 16), (32, 32, 16, 32), (48, 48, 16, 48), (64, 64, 24, 64), (96, 96, 32, 96), (160, 160, 48, 160))
+"""Static sizes of a program with its secondary constraints: leaves, steps, regions, residuals. Beyond the last, the
+sizes of `solve.compile` are kept."""
+
+
+@dataclass(frozen=True)
+class PaperProgram:
+    """The program of a search.
+
+    Attributes:
+        violations: its arrays.
+        wide: whether a region is an intersection.
+        primary: rows of `active` that hold the primary constraints.
+        weak, strong: relation number -> row of its function, and of `coincide_on_point`.
+        owner: constraint of each residual.
+    """
+
+    violations: Violations
+    wide: bool
+    primary: tuple[int, ...]
+    weak: Mapping[int, int]
+    strong: Mapping[int, int]
+    owner: tuple[int, ...]
+
+    def active(self, states: Sequence[str]) -> Float[np.ndarray, " g"]:
+        """The mask for relation states, by relation number ("ST", "WK", "N")."""
+        mask = np.zeros(self.violations.allowed.shape)
+        mask[list(self.primary)] = 1.0
+        for e, row in self.weak.items():
+            mask[row] = states[e] != "N"
+            mask[self.strong[e]] = states[e] == "ST"
+        return mask
+
+    def sizes(self, residuals: Float[np.ndarray, " C"]) -> Float[np.ndarray, " g"]:
+        """The violation of every constraint, px, before anything is allowed for."""
+        squares = np.bincount(self.owner, residuals[: len(self.owner)] ** 2, len(self.violations.allowed))
+        return np.sqrt(squares)
+
+    def allowing(self, residuals: Float[np.ndarray, " C"]) -> PaperProgram:
+        """The program in which secondary constraints may be violated as far as in the unedited picture, which has
+        `residuals`: connected parts may have a thin white gap between them."""
+        allowed = self.sizes(residuals)
+        allowed[list(self.primary)] = 0.0
+        return replace(self, violations=self.violations._replace(allowed=allowed))
+
+
+def build_program(setup: Setup, registry: Registry) -> PaperProgram:
+    """Compile the primary program of `setup` together with two calls for each relation of the paper's kinds.
+
+    "near" relations are beyond the paper and left out.
+    """
+    constraints = [(c, u) for c, u in zip(setup.program.calls, setup.units, strict=True) if u is not None]
+    calls, units = [c for c, _ in constraints], [u for _, u in constraints]
+    primary = tuple(range(len(calls)))
+    weak, strong = {}, {}
+    for e, relation in enumerate(setup.setting.relations):
+        if relation.kind == "near":
+            continue
+        weak[e], strong[e] = len(calls), len(calls) + 1
+        calls += _calls(relation, setup.scene.names)
+        units += [Unit.LENGTH, Unit.LENGTH]
+    compiled = compile_program(
+        Program(tuple(calls)), units, setup.scene, setup.setting.relations, setup.table,
+        {o.name: o.residual_size for o in registry.operators.values()},
+        frozenset(o.name for o in registry.operators.values() if o.variadic), setup.sizes.segments,
+    )  # fmt: skip
+    code, regions = trim(compiled)
+    rows = code.out.shape[0]
+    canvas = np.array([0.0, setup.scene.width, 0.0, setup.scene.height])
+    owner = index_array(compiled.owner, rows, rows)
+    violations = Violations(code, regions, owner, np.zeros(rows), canvas)
+    return PaperProgram(violations, compiled.wide, primary, weak, strong, compiled.owner)
+
+
+def _calls(relation: Relation, names: Sequence[str]) -> list[Call]:
+    a, b = SegmentRef(names[relation.a]), SegmentRef(names[relation.b])
+    x, y = relation.contact.middle.mean(0)
+    meeting = Point(float(x), float(y))  # one place, as material of both: across a gap it is in neither
+    return [Call(relation.kind, (a, b)), Call("coincide_on_point", (a, meeting, b, meeting))]
+
+
+def trim(compiled: CompiledProgram) -> tuple[Code, Regions]:
+    """The program in smaller arrays: one residual more does not have to double all of them."""
+    code, regions = compiled.code, compiled.regions
+    used = (int(code.leaves), int(code.steps), int(np.max([code.region_a, code.region_b])) + 1, len(compiled.owner))
+    meets = int(np.max([regions.first, regions.second])) + 1
+    used = (used[0], used[1], max(used[2], meets), used[3])
+    tier = next((t for t in TIERS if all(u <= size for u, size in zip(used, t, strict=True))), None)
+    whole = code.leaf_op.shape[0]
+    if tier is None or tier[0] >= whole:
+        return code, regions
+    leaves, steps, rows, outs = tier
+
+    def register(numbers: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
+        return np.where(numbers >= whole, numbers - whole + leaves, numbers)
+
+    smaller = Code(
+        code.leaf_op[:leaves], code.region_a[:leaves], code.region_b[:leaves], code.extra[:leaves], code.leaves,
+        code.step_op[:steps], register(code.value_a[:steps]), register(code.value_b[:steps]), code.literal[:steps],
+        code.steps, register(code.out[:outs]), code.scale[:outs],
+    )  # fmt: skip
+    return smaller, Regions(*(x[:rows] for x in regions))

@@ -1,0 +1,91 @@
+"""The paper's loss: the mean violation of all constraints that are switched on, primary and secondary alike."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import jax
+import jax.numpy as jnp
+from jaxtyping import Array, Float, Int
+
+from iconjax.solve.arrays import Code, Regions, Solution
+from iconjax.solve.objective import Flat, Level
+from iconjax.solve.pose import Bodies, jacobians, matrices
+from iconjax.solve.program import residuals, segment_matrices
+from iconjax.solve.table import OperatorTable
+
+
+class Violations(NamedTuple):
+    """What all candidates share: one program that holds primary and secondary constraints. G constraints.
+
+    Attributes:
+        code, regions: the program.
+        owner: (C,) constraint that each residual belongs to; G for padding.
+        allowed: (G,) violation that does not count, px: how far the constraint was violated before the edit.
+        canvas: (4,) extent of the picture.
+    """
+
+    code: Code
+    regions: Regions
+    owner: Int[Array, " C"]
+    allowed: Float[Array, " G"]
+    canvas: Float[Array, "4"]
+
+
+class Choice(NamedTuple):
+    """One setting of the discrete states.
+
+    Attributes:
+        body: (N,) the body that carries each segment: its own.
+        bodies: the bodies; motion states are the mask `bodies.free`.
+        active: (G,) 1 where a constraint is switched on, else 0.
+    """
+
+    body: Int[Array, " N"]
+    bodies: Bodies
+    active: Float[Array, " G"]
+
+
+class MeanViolation:
+    """The loss of one candidate. Its level of sharpness changes nothing: absolute values are never smoothed."""
+
+    staged = False
+    good = 1e-3
+
+    def __init__(self, problem: Violations, cand: Choice, table: OperatorTable, wide: bool) -> None:
+        self.problem, self.cand, self.table, self.wide = problem, cand, table, wide
+        bodies = cand.bodies
+        self.free = bodies.free.reshape(-1)
+        self.start = bodies.start.reshape(-1) * self.free
+        reach = jnp.full((bodies.radius.shape[0], 2), 0.5 * jnp.max(problem.canvas))
+        self.most = jnp.concatenate([reach, jnp.repeat(0.6 * bodies.radius[:, None], 3, 1)], 1).reshape(-1)
+        of = jax.nn.one_hot(problem.owner, problem.allowed.shape[0], dtype=self.start.dtype)
+        self.owner = of.T  # G C
+
+    def _residuals(self, z: Flat) -> tuple[Float[Array, " C"], Float[Array, "C V"], Float[Array, "K 6"]]:
+        bodies = self.cand.bodies
+        own = z.reshape(bodies.free.shape)
+        m, d = matrices(own, bodies), jacobians(own, bodies)
+        problem = self.problem
+        value, by_matrix = residuals(problem.code, problem.regions, m, self.cand.body, self.table, self.wide)
+        return value, jnp.einsum("ckm,kmv->ckv", by_matrix, d).reshape(value.shape[0], -1), m
+
+    def value_and_slope(self, z: Flat, level: Level) -> tuple[Float[Array, ""], Flat]:
+        """The loss and its derivative."""
+        value, slope, _ = self._residuals(z)
+        total, weight = self._total(value)
+        return total, weight @ slope
+
+    def _total(self, value: Float[Array, " C"]) -> tuple[Float[Array, ""], Float[Array, " C"]]:
+        """Mean violation, and its derivative by the residuals."""
+        size = jnp.sqrt(self.owner @ value**2 + 1e-18)
+        excess = size - 1e-9 - self.problem.allowed
+        counts = jnp.maximum(self.cand.active.sum(), 1.0)
+        total = jnp.sum(self.cand.active * jnp.maximum(excess, 0.0)) / counts
+        return total, self.owner.T @ (self.cand.active * (excess > 0) / size / counts) * value
+
+    def solution(self, z: Flat) -> Solution:
+        """Transforms, residuals of all constraints (switched on or not), and the loss."""
+        value, _, m = self._residuals(z)
+        segments = segment_matrices(m, self.cand.body)[:-1]
+        return Solution(z.reshape(self.cand.bodies.free.shape), segments, value, self._total(value)[0])
