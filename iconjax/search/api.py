@@ -4,18 +4,20 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
 
 from iconjax.dsl.nodes import Program
 from iconjax.dsl.pretty import to_text
-from iconjax.dsl.registry import Registry
+from iconjax.dsl.registry import Registry, default_registry
 from iconjax.dsl.units import Unit, pixels_per_unit
 from iconjax.scene.types import Scene
 from iconjax.search.coherent import CoherentSearch
 from iconjax.search.config import SearchConfig
 from iconjax.search.cost import measure_motion
+from iconjax.search.paper import PaperSearch
 from iconjax.search.setup import Setup, prepare
 from iconjax.search.types import ConstraintReport, RelationReport, SearchOutcome
 
@@ -35,28 +37,46 @@ def search_edit(
     config = config or SearchConfig()
     begin = time.perf_counter()
     setup = prepare(scene, program, config, registry)
-    search = CoherentSearch(setup, config)
-    best = search.run()
+    search: CoherentSearch | PaperSearch
+    if config.strategy == "paper":
+        search = PaperSearch(setup, registry or default_registry(), config)
+        state, solved = search.run()
+        found = _Found(solved.matrices, solved.residuals, state.relations, solved.score, tuple(search.notes))
+    else:
+        search = CoherentSearch(setup, config)
+        best = search.run()
+        found = _Found(best.matrices, best.primary, best.judgement.outcomes, best.cost, ())
     n = len(scene.segments)
-    matrices = best.matrices.reshape(n, 2, 3).copy()
-    motion = measure_motion(best.matrices, setup.setting.facts.features)
+    motion = measure_motion(found.matrices, setup.setting.facts.features)
     names = scene.names
     relations = tuple(
         RelationReport(names[r.a], names[r.b], r.kind, r.scope, state)
-        for r, state in zip(setup.setting.relations, best.judgement.outcomes, strict=True)
+        for r, state in zip(setup.setting.relations, found.relations, strict=True)
     )
     return SearchOutcome(
-        matrices=matrices,
+        matrices=found.matrices.reshape(n, 2, 3).copy(),
         motion_states={s.id: motion_word(motion, i) for i, s in enumerate(scene.segments)},
         relations=relations,
-        constraints=report_constraints(setup, best.primary),
-        score=best.cost,
+        constraints=report_constraints(setup, found.primary),
+        score=found.score,
         trace=tuple(search.entries),
         timings={
             "compile": search.engine.compile_seconds,
             "search": time.perf_counter() - begin - search.engine.compile_seconds,
         },
+        notes=found.notes,
     )
+
+
+@dataclass(frozen=True)
+class _Found:
+    """What either strategy finds: transforms, residuals (of the primary constraints first), states of the relations."""
+
+    matrices: Float[np.ndarray, "n 6"]
+    primary: Float[np.ndarray, " c"]
+    relations: tuple[str, ...]
+    score: float
+    notes: tuple[str, ...]
 
 
 def motion_word(motion, i: int) -> str:  # type: ignore[no-untyped-def]

@@ -52,6 +52,14 @@ class Setting:
         a, b = sorted((self.pieces[r.a], self.pieces[r.b]))
         return a, b
 
+    def hinged(self, r: Relation) -> bool:
+        """Whether the program itself says where the two sides of a relation hold together."""
+        for first, second in self.intent.hinged:
+            hosts = second | {h for i in second if (h := self.facts.host[i]) is not None}
+            if (r.a in first and r.b in hosts) or (r.b in first and r.a in hosts):
+                return True
+        return False
+
     def companions(self, r: Relation) -> int:
         """How many relations connect the same two things; 1 within one object."""
         pair = self.pair(r)
@@ -134,7 +142,7 @@ def _relation_arrays(
     hold, ends, slide = np.zeros(sizes.relations), np.zeros(sizes.relations), np.zeros(sizes.relations)
     for e, r in enumerate(setting.relations):
         status = state.relations.get(e, "ST")
-        if body[r.a] == body[r.b] or status == "N":
+        if body[r.a] == body[r.b] or status == "N" or setting.hinged(r):
             continue
         share = 1 / setting.companions(r)
         hold[e] = share * setting.forces.hold(r)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 from jaxtyping import Float
@@ -145,6 +146,8 @@ class Judge:
         if r.scope == "inter":
             slide *= 1 + self.costs.carrier * self._carried(r, motion)
             slide *= self.costs.bearing if self._bears(r, motion) else 1.0
+        if self.setting.hinged(r):
+            slide *= self.costs.bearing
         # A broad contact, along much of both outlines, binds the two more than a touch in passing.
         slide *= 1 + self.costs.broad * max(0.0, min(r.contact.share, r.contact.share_b) - 0.2)
         slide = min(slide, self.costs.broken[kind])
@@ -193,8 +196,9 @@ class Judge:
                     continue
                 share = costs.moved_area * float(facts.area[i])
                 add("moved", share * (0.5 if along else 1.0) * min(1.0, motion.shift[i] / (20 * self.unit)))
-                if not along and abs(motion.turn[i]) > 0.3:
-                    add("turned", costs.turned * min(1.0, abs(motion.turn[i]) / 10))
+                if abs(motion.turn[i]) > 0.3:
+                    weight = costs.turned * (2 * float(facts.area[i]) if along else 1.0)
+                    add("turned", weight * min(1.0, abs(motion.turn[i]) / 10))
                 self._distorted(i, motion, add)
                 if facts.grounded[i]:
                     weight = costs.uprooted * (0.5 if along else 1.0) * (1 + min(1.0, abs(motion.turn[i]) / 10))
@@ -226,6 +230,13 @@ class Judge:
             if "translate" in thing.kinds:
                 idle = float((motion.shift[members] < STILL_PX * self.unit).mean())
                 add("idle", self.costs.idle_specifier * (idle if 0 < idle < 1 else idle / 4))
+        for first, second in self.setting.intent.hinged:
+            if abs(motion.turn[min(first)] - motion.turn[min(second)]) < 0.5:
+                add("idle", self.costs.idle_specifier)
+        turning = [t.members for t in self.setting.intent.things if t.kinds == {"rotate"}]
+        for first, second in combinations(turning, 2):
+            apart = abs(abs(motion.turn[first[0]]) - abs(motion.turn[second[0]]))
+            add("uneven", self.costs.uneven * min(1.0, apart / 10) if apart > 0.5 else 0.0)
         for i, kinds in self.asked.items():
             if not kinds:
                 continue

@@ -50,6 +50,7 @@ class Intent:
         together: sets of segments that move as one.
         mentioned: segments that a constraint mentions in their edited pose.
         placed: pairs of segment sets where the first is put on top of the second and touches it.
+        hinged: pairs of segment sets that turn about each other.
         changed: extents, "x" or "y", that a constraint changes rather than keeps.
     """
 
@@ -59,6 +60,7 @@ class Intent:
     mentioned: frozenset[int]
     placed: tuple[tuple[frozenset[int], frozenset[int]], ...]
     changed: frozenset[str]
+    hinged: tuple[tuple[frozenset[int], frozenset[int]], ...]
 
     def only_extent(self, kind: str) -> str:
         """The one-axis scale kind behind `kind` where the program changes one extent and keeps the other, else ""."""
@@ -102,8 +104,9 @@ def read_intent(program: Program, scene: Scene) -> Intent:
     mentioned = frozenset(i for m, _, _ in spoken for i in m)
     changed = frozenset(e for c in constraints if not _keeps(c) for _, extents, _ in _spoken([c], scene) for e in extents)
     return Intent(
-        tuple(things), frozenset(fixed), tuple(together), mentioned, _placed(constraints, scene), changed & {"x", "y"}
-    )
+        tuple(things), frozenset(fixed), tuple(together), mentioned, _placed(constraints, scene), changed & {"x", "y"},
+        tuple(_pairs(constraints, scene, "hinge", "coincide_on_point")),
+    )  # fmt: skip
 
 
 def _fits(spoken: tuple[int, ...], members: tuple[int, ...]) -> bool:
@@ -183,13 +186,16 @@ def _strip(node: Node) -> Node:
 def _placed(
     constraints: list[Call], scene: Scene
 ) -> tuple[tuple[frozenset[int], frozenset[int]], ...]:
-    def pairs(*names: str) -> set[tuple[frozenset[int], frozenset[int]]]:
-        return {
-            (frozenset(_members(c.args[0], scene)), frozenset(_members(c.args[1], scene)))
-            for c in constraints
-            if c.name in names
-        }
-
-    touching = pairs("touch", "overlap")
+    touching = _pairs(constraints, scene, "touch", "overlap")
     touching |= {(b, a) for a, b in touching}
-    return tuple(p for p in pairs("on_top") if p in touching)
+    return tuple(p for p in sorted(_pairs(constraints, scene, "on_top"), key=str) if p in touching)
+
+
+def _pairs(constraints: list[Call], scene: Scene, *names: str) -> set[tuple[frozenset[int], frozenset[int]]]:
+    """Segment sets that calls of some operators relate."""
+    found = set()
+    for c in constraints:
+        regions = [frozenset(m) for a in c.args if (m := _members(a, scene))]
+        if c.name in names and len(regions) == 2:
+            found.add((regions[0], regions[1]))
+    return found

@@ -16,6 +16,7 @@ from iconjax.search.setup import Setup
 from iconjax.solve.arrays import Code, Regions
 from iconjax.solve.compile import CompiledProgram, compile_program
 from iconjax.solve.regions import index_array
+from iconjax.solve.table import OperatorTable, operator_table
 from iconjax.solve.violation import Violations
 
 TIERS = ((16, 16, 8, 16), (32, 32, 16, 32), (48, 48, 16, 48), (64, 64, 24, 64), (96, 96, 32, 96), (160, 160, 48, 160))
@@ -29,6 +30,7 @@ class PaperProgram:
 
     Attributes:
         violations: its arrays.
+        table: operators by number.
         wide: whether a region is an intersection.
         primary: rows of `active` that hold the primary constraints.
         weak, strong: relation number -> row of its function, and of `coincide_on_point`.
@@ -36,6 +38,7 @@ class PaperProgram:
     """
 
     violations: Violations
+    table: OperatorTable
     wide: bool
     primary: tuple[int, ...]
     weak: Mapping[int, int]
@@ -79,8 +82,9 @@ def build_program(setup: Setup, registry: Registry) -> PaperProgram:
         weak[e], strong[e] = len(calls), len(calls) + 1
         calls += _calls(relation, setup.scene.names)
         units += [Unit.LENGTH, Unit.LENGTH]
+    table = operator_table(registry)
     compiled = compile_program(
-        Program(tuple(calls)), units, setup.scene, setup.setting.relations, setup.table,
+        Program(tuple(calls)), units, setup.scene, setup.setting.relations, table,
         {o.name: o.residual_size for o in registry.operators.values()},
         frozenset(o.name for o in registry.operators.values() if o.variadic), setup.sizes.segments,
     )  # fmt: skip
@@ -89,7 +93,7 @@ def build_program(setup: Setup, registry: Registry) -> PaperProgram:
     canvas = np.array([0.0, setup.scene.width, 0.0, setup.scene.height])
     owner = index_array(compiled.owner, rows, rows)
     violations = Violations(code, regions, owner, np.zeros(rows), canvas)
-    return PaperProgram(violations, compiled.wide, primary, weak, strong, compiled.owner)
+    return PaperProgram(violations, table, compiled.wide, primary, weak, strong, compiled.owner)
 
 
 def _calls(relation: Relation, names: Sequence[str]) -> list[Call]:

@@ -100,6 +100,7 @@ class Costs:
         uprooted: something that stood on the ground leaves it.
         extra: an unasked kind of motion of an asked part.
         idle_specifier: a kind of motion that was asked and did not happen.
+        uneven: two things that are asked to turn do so by different angles.
         misaligned: an alignment lost, by its reason; all of them at most `misaligned_most`.
         asymmetric: a symmetry of a pair about a third segment lost; all of them at most `asymmetric_most`.
         off_canvas: per share of a segment's box outside the picture.
@@ -132,6 +133,7 @@ class Costs:
     uprooted: float = 1.5
     extra: float = 3.0
     idle_specifier: float = 8.0
+    uneven: float = 2.0
     misaligned: Mapping[str, float] = field(
         default_factory=lambda: {"touching": 1.0, "siblings": 0.3, "ground": 0.5, "support": 3.0, "overhang": 1.5}
     )

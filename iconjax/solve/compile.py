@@ -209,7 +209,12 @@ def _pack(build: _Build, outputs: list[tuple[_Register, int, float]], segments: 
 def meeting_point(
     scene: Scene, relations: Sequence[Relation], a: RegionSpec, b: RegionSpec
 ) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Where two regions meet, as a material point of each: their tightest relation, else the nearest points."""
+    """Where two regions meet, as a material point of each: at the centre of a pin, if one of them is one; else their
+    tightest relation; else their nearest points."""
+    for spec in (b, a):
+        centre = _pin(spec)
+        if centre is not None:
+            return centre, centre
     first, second = {m.carrier for m in a.materials}, {m.carrier for m in b.materials}
     best = None
     for r in relations:
@@ -226,3 +231,19 @@ def meeting_point(
         best = (0.0, points_a[i], points_b[j])
     (px, py), (qx, qy) = best[1], best[2]
     return (float(px), float(py)), (float(qx), float(qy))
+
+
+PIN = 0.08
+"""How far the area of a pin may be from that of the disc in its box."""
+
+
+def _pin(spec: RegionSpec) -> tuple[float, float] | None:
+    """The centre of a region that is a single disc: what turns at a bolt, a wheel or a hub turns about its centre."""
+    if len(spec.materials) != 1 or len(spec.materials[0].loops) != 1:
+        return None
+    loop = spec.materials[0].loops[0]
+    (x0, y0), (x1, y1) = loop.min(0), loop.max(0)
+    square = min(x1 - x0, y1 - y0) > 0.88 * max(x1 - x0, y1 - y0)
+    if not square or abs(spec.materials[0].area / (np.pi / 4 * (x1 - x0) * (y1 - y0)) - 1) > PIN:
+        return None
+    return float(x0 + x1) / 2, float(y0 + y1) / 2

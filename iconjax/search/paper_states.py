@@ -1,0 +1,129 @@
+"""The discrete states of the paper's search, its fronts, and its flips."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from itertools import combinations, islice
+from math import comb
+
+import numpy as np
+from jaxtyping import Float
+
+from iconjax.dsl.nodes import segment_names
+from iconjax.relations.types import Relation
+from iconjax.search.intent import Intent
+from iconjax.search.setup import Setup
+from iconjax.solve.pose import Bodies
+from iconjax.solve.violation import Choice
+
+MOTIONS = ("TRS", "TR", "TS", "T", "N")
+"""Motion states in the paper's order: the later, the simpler."""
+FREEDOM = {"N": (0, 0, 0, 0, 0), "T": (1, 1, 0, 0, 0), "TR": (1, 1, 1, 0, 0), "TS": (1, 1, 0, 1, 1), "TRS": (1, 1, 1, 1, 1)}
+LEVER = 0.1
+"""Least lever of a body's rotation and scaling as a share of the picture: the first step of 10 px turns by a fifth of a
+radian at most."""
+
+
+@dataclass(frozen=True)
+class PaperState:
+    """One setting of both state matrices.
+
+    Attributes:
+        motion: motion state of every segment.
+        relations: state of every relation, "ST", "WK" or "N".
+    """
+
+    motion: tuple[str, ...]
+    relations: tuple[str, ...]
+
+    def with_relations(self, edges: Iterable[int], state: str) -> PaperState:
+        """Some relations set to a state."""
+        some = set(edges)
+        return replace(self, relations=tuple(state if e in some else s for e, s in enumerate(self.relations)))
+
+    def with_motion(self, node: int, state: str) -> PaperState:
+        """One segment set to a motion state."""
+        return replace(self, motion=(*self.motion[:node], state, *self.motion[node + 1 :]))
+
+
+def initial_state(intent: Intent, relations: Sequence[Relation], segments: int) -> PaperState:
+    """Every relation strong; named segments free in the ways the program names, those told to stay fixed, all others
+    free in every way. "near" relations are beyond the paper: they do not exist."""
+    motion = []
+    for i in range(segments):
+        kinds = {kind for thing in intent.things_of(i) for kind in thing.kinds}
+        asked = "T" + ("R" if "rotate" in kinds else "") + ("S" if "scale" in kinds else "")
+        motion.append("N" if i in intent.fixed else asked if kinds else "TRS")
+    return PaperState(tuple(motion), tuple("N" if r.kind == "near" else "ST" for r in relations))
+
+
+def primary_nodes(setup: Setup) -> list[int]:
+    """Segments that the program mentions, in order."""
+    names = [n for call in setup.program.calls for n in segment_names(call)]
+    return list(dict.fromkeys(i for n in names for i in setup.scene.members(n)))
+
+
+def flip_relations(state: PaperState, chosen: Sequence[int], relations: Sequence[Relation]) -> list[tuple[str, PaperState]]:
+    """The paper's four steps on the chosen edges, each on top of the one before, with a word for each."""
+    def of(scope: str, current: str) -> list[int]:
+        return [e for e in chosen if relations[e].scope == scope and state.relations[e] == current]
+
+    out = []
+    for scope, start, end, words in (
+        ("inter", "ST", "WK", "between objects to weak"),
+        ("inter", "WK", "N", "between objects given up"),
+        ("intra", "ST", "N", "not crucial given up"),
+        ("intra-crucial", "ST", "WK", "crucial to weak"),
+    ):
+        state = state.with_relations(of(scope, start), end)
+        out.append((words, state))
+    return out
+
+
+def flip_motion(state: PaperState, node: int) -> list[tuple[str, PaperState]]:
+    """One segment in each motion state, in the paper's order."""
+    return [(m, state.with_motion(node, m)) for m in MOTIONS]
+
+
+def subsets(front: Sequence[int], most: int) -> tuple[list[tuple[int, ...]], int]:
+    """Combinations of a front's edges, the smaller first, at most `most` of them (the whole front among these); and how
+    many there are."""
+    count = 2 ** len(front)
+    ordered = (c for size in range(len(front) + 1) for c in combinations(front, size))
+    chosen = list(islice(ordered, most))
+    if count > most:
+        chosen[-1] = tuple(front)
+    return chosen, count
+
+
+def next_edges(front: Iterable[int], seen: set[int], relations: Sequence[Relation], edges: Sequence[int]) -> list[int]:
+    """Edges not seen yet that share a segment with the front."""
+    nodes = {n for e in front for n in (relations[e].a, relations[e].b)}
+    return [e for e in edges if e not in seen and {relations[e].a, relations[e].b} & nodes]
+
+
+def next_nodes(front: Iterable[int], seen: set[int], relations: Sequence[Relation], edges: Sequence[int]) -> list[int]:
+    """Segments not seen yet that are related to one of the front."""
+    some = set(front)
+    near = [n for e in edges for n in (relations[e].a, relations[e].b) if some & {relations[e].a, relations[e].b}]
+    return [n for n in dict.fromkeys(near) if n not in seen]
+
+
+def build_bodies(motion: Sequence[str], features: Float[np.ndarray, "n 6"], size: float, count: int) -> Bodies:
+    """Each segment as a body of its own, with its motion state as a mask; scaling is along the picture's axes."""
+    n = len(motion)
+    centre, radius, free = np.zeros((count, 2)), np.ones(count), np.zeros((count, 5))
+    centre[:n] = features[:, [1, 4]]
+    extent = features[:, [2, 5]] - features[:, [0, 3]]
+    radius[:n] = np.maximum(np.linalg.norm(extent, axis=1) / 2, LEVER * size)
+    free[:n] = [FREEDOM[m] for m in motion]
+    zero = np.zeros((count, 5))
+    return Bodies(centre, np.zeros(count), radius, free, np.zeros(count), zero, zero, zero)
+
+
+def build_choice(state: PaperState, setup: Setup, active: Float[np.ndarray, " g"]) -> Choice:
+    """The arrays for a state."""
+    count = setup.sizes.segments
+    facts = setup.setting.facts
+    return Choice(np.arange(count), build_bodies(state.motion, facts.features, setup.setting.size, count), active)
