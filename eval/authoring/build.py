@@ -33,7 +33,7 @@ IDENTITY = np.eye(3)
 
 
 def matrix_of(steps: Sequence[Sequence[Any]]) -> np.ndarray:
-    """Product of motions, the first one applied first: translate dx dy, scale sx sy cx cy, rotate degrees cx cy."""
+    """Product of motions, first one first: translate dx dy, scale sx sy cx cy, rotate degrees cx cy."""
     total = IDENTITY
     for name, *v in steps:
         if name == "translate":
@@ -160,7 +160,8 @@ def sheet(folder: Path, out: Path) -> None:
     panels = [Image.open(folder / "image.png"), Image.fromarray(colours[mask])]
     for k, panel in enumerate([*panels, Image.open(folder / "ground_truth.png")]):
         page.paste(panel, (k * 520, 0))
-    ImageDraw.Draw(page).text((4, 515), json.loads((folder / "case.json").read_text())["request"], fill="white")
+    request = json.loads((folder / "case.json").read_text())["request"]
+    ImageDraw.Draw(page).text((4, 515), request, fill="white")
     out.mkdir(parents=True, exist_ok=True)
     page.save(out / f"{folder.name}.png")
 

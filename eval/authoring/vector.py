@@ -77,7 +77,7 @@ class Icon:
 
 
 def load_icon(packages: Path, source: str) -> Icon:
-    """Read an icon "set:name" from the installed packages (node_modules/@iconify-json); black ones in `INK`."""
+    """Read an icon "set:name" from the installed packages; black ones are drawn in `INK`."""
     folder, name = source.split(":")
     data = json.loads((packages / folder / "icons.json").read_text(encoding="utf-8"))
     record = data["icons"][name]

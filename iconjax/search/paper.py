@@ -45,7 +45,7 @@ class Solved:
     Attributes:
         score: mean violation of the constraints that were switched on, px.
         matrices: (n, 6) transform of each segment.
-        residuals: (c,) residuals of all constraints, the primary ones first.
+        residuals: residuals of all constraints, the primary ones first.
     """
 
     score: float
@@ -104,9 +104,9 @@ class PaperSearch:
             return
         choices = [build_choice(s, self.setup, self.program.active(s.relations)) for s in fresh]
         found = self.engine.solve(choices)
-        n, used = len(self.setup.scene.segments), len(self.program.owner)
+        n = len(self.setup.scene.segments)
         for k, state in enumerate(fresh):
-            self.solved[state] = Solved(float(found.loss[k]), found.matrices[k, :n], found.primary[k, :used])
+            self.solved[state] = Solved(float(found.loss[k]), found.matrices[k, :n], found.primary[k])
         self.round += 1
 
     def _relation_pass(self, best: PaperState) -> PaperState:
@@ -195,8 +195,8 @@ class PaperSearch:
         )
         active = self.program.active(state.relations)
         excess = np.maximum(self.program.sizes(solved.residuals) - self.program.violations.allowed, 0.0) * active
-        count, primary = max(float(active.sum()), 1.0), list(self.program.primary)
-        first = float(excess[primary].sum()) / count
+        count = max(float(active.sum()), 1.0)
+        first = float(excess[: self.program.primary].sum()) / count
         terms = {"primary": first, "secondary": float(excess.sum()) / count - first}
         motion = dict(zip(names, state.motion, strict=True))
         self.entries.append(TraceEntry(self.round - 1, origin, motion, loose, solved.score, terms, kept, reason))

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from jaxtyping import Float
 
-from iconjax.dsl.nodes import Call, Point, Program, SegmentRef
+from iconjax.dsl.nodes import Call, Program, SegmentRef
 from iconjax.dsl.registry import Registry
 from iconjax.dsl.units import Unit
 from iconjax.relations.types import Relation
@@ -32,75 +33,75 @@ class PaperProgram:
         violations: its arrays.
         table: operators by number.
         wide: whether a region is an intersection.
-        primary: rows of `active` that hold the primary constraints.
+        primary: how many primary constraints there are; they come first.
         weak, strong: relation number -> row of its function, and of `coincide_on_point`.
-        owner: constraint of each residual.
     """
 
     violations: Violations
     table: OperatorTable
     wide: bool
-    primary: tuple[int, ...]
+    primary: int
     weak: Mapping[int, int]
     strong: Mapping[int, int]
-    owner: tuple[int, ...]
 
     def active(self, states: Sequence[str]) -> Float[np.ndarray, " g"]:
         """The mask for relation states, by relation number ("ST", "WK", "N")."""
         mask = np.zeros(self.violations.allowed.shape)
-        mask[list(self.primary)] = 1.0
+        mask[: self.primary] = 1.0
         for e, row in self.weak.items():
             mask[row] = states[e] != "N"
             mask[self.strong[e]] = states[e] == "ST"
         return mask
 
-    def sizes(self, residuals: Float[np.ndarray, " C"]) -> Float[np.ndarray, " g"]:
+    def sizes(self, residuals: Float[np.ndarray, " c"]) -> Float[np.ndarray, " g"]:
         """The violation of every constraint, px, before anything is allowed for."""
-        squares = np.bincount(self.owner, residuals[: len(self.owner)] ** 2, len(self.violations.allowed))
-        return np.sqrt(squares)
+        rows, edges = len(self.violations.allowed), len(self.violations.a)
+        owner = np.concatenate([self.violations.owner, np.repeat(np.arange(rows - edges, rows), 2)])
+        return np.sqrt(np.bincount(owner, residuals**2, rows)[:rows])
 
-    def allowing(self, residuals: Float[np.ndarray, " C"]) -> PaperProgram:
+    def allowing(self, residuals: Float[np.ndarray, " c"]) -> PaperProgram:
         """The program in which secondary constraints may be violated as far as in the unedited picture, which has
         `residuals`: connected parts may have a thin white gap between them."""
         allowed = self.sizes(residuals)
-        allowed[list(self.primary)] = 0.0
+        allowed[: self.primary] = 0.0
         return replace(self, violations=self.violations._replace(allowed=allowed))
 
 
 def build_program(setup: Setup, registry: Registry) -> PaperProgram:
-    """Compile the primary program of `setup` together with two calls for each relation of the paper's kinds.
+    """Compile the primary program of `setup` together with the function of each relation of the paper's kinds.
 
     "near" relations are beyond the paper and left out.
     """
     constraints = [(c, u) for c, u in zip(setup.program.calls, setup.units, strict=True) if u is not None]
     calls, units = [c for c, _ in constraints], [u for _, u in constraints]
-    primary = tuple(range(len(calls)))
-    weak, strong = {}, {}
-    for e, relation in enumerate(setup.setting.relations):
-        if relation.kind == "near":
-            continue
-        weak[e], strong[e] = len(calls), len(calls) + 1
-        calls += _calls(relation, setup.scene.names)
-        units += [Unit.LENGTH, Unit.LENGTH]
+    primary, relations, names = len(calls), setup.setting.relations, setup.scene.names
+    edges = [e for e, r in enumerate(relations) if r.kind != "near"]
+    calls += [Call(relations[e].kind, tuple(SegmentRef(names[i]) for i in (relations[e].a, relations[e].b))) for e in edges]
+    units += [Unit.LENGTH] * len(edges)
     table = operator_table(registry)
     compiled = compile_program(
-        Program(tuple(calls)), units, setup.scene, setup.setting.relations, table,
+        Program(tuple(calls)), units, setup.scene, relations, table,
         {o.name: o.residual_size for o in registry.operators.values()},
         frozenset(o.name for o in registry.operators.values() if o.variadic), setup.sizes.segments,
     )  # fmt: skip
     code, regions = trim(compiled)
-    rows = code.out.shape[0]
-    canvas = np.array([0.0, setup.scene.width, 0.0, setup.scene.height])
-    owner = index_array(compiled.owner, rows, rows)
-    violations = Violations(code, regions, owner, np.zeros(rows), canvas)
-    return PaperProgram(violations, table, compiled.wide, primary, weak, strong, compiled.owner)
+    outs, meetings = code.out.shape[0], setup.sizes.relations
+    violations = Violations(
+        code, regions, index_array(compiled.owner, outs, outs + meetings),
+        **_meetings(relations, meetings, setup.sizes.segments),
+        allowed=np.zeros(outs + meetings), canvas=setup.problem.canvas,
+    )  # fmt: skip
+    weak, strong = {e: primary + k for k, e in enumerate(edges)}, {e: outs + e for e in edges}
+    return PaperProgram(violations, table, compiled.wide, primary, weak, strong)
 
 
-def _calls(relation: Relation, names: Sequence[str]) -> list[Call]:
-    a, b = SegmentRef(names[relation.a]), SegmentRef(names[relation.b])
-    x, y = relation.contact.middle.mean(0)
-    meeting = Point(float(x), float(y))  # one place, as material of both: across a gap it is in neither
-    return [Call(relation.kind, (a, b)), Call("coincide_on_point", (a, meeting, b, meeting))]
+def _meetings(relations: Sequence[Relation], rows: int, still: int) -> dict[str, Any]:
+    """Where relations meet: one place, as material of both; across a gap it is in neither."""
+    meeting = np.zeros((rows, 2))
+    for e, r in enumerate(relations):
+        meeting[e] = r.contact.middle.mean(0)
+    a, b = index_array([r.a for r in relations], rows, still), index_array([r.b for r in relations], rows, still)
+    return {"a": a, "b": b, "meeting": meeting}
 
 
 def trim(compiled: CompiledProgram) -> tuple[Code, Regions]:

@@ -28,7 +28,8 @@ class Rows(NamedTuple):
     weight: Float[Array, " S"]
 
 
-def _point_slope(points: Float[Array, "*n 2"], d: Float[Array, "*n 6 5"]) -> Float[Array, "*n 2 5"]:
+def point_slope(points: Float[Array, "*n 2"], d: Float[Array, "*n 6 5"]) -> Float[Array, "*n 2 5"]:
+    """Derivative of moved points by the parameters, from that of their transforms."""
     x, y = points[..., 0, None], points[..., 1, None]
     along_x = d[..., 0, :] * x + d[..., 1, :] * y + d[..., 2, :]
     along_y = d[..., 3, :] * x + d[..., 4, :] * y + d[..., 5, :]
@@ -63,8 +64,8 @@ def joint_rows(
     apart = move(joints.points_b, seg_b) - move(joints.points_a, seg_a) - gap_now  # E 3 2
 
     d_seg = jnp.einsum("nk,kmv->nkmv", pick[:-1], d)
-    slope_a = _point_slope(joints.points_a[:, :, None], d_seg[joints.a][:, None])  # E 3 K 2 5
-    slope_b = _point_slope(joints.points_b[:, :, None], d_seg[joints.b][:, None])
+    slope_a = point_slope(joints.points_a[:, :, None], d_seg[joints.a][:, None])  # E 3 K 2 5
+    slope_b = point_slope(joints.points_b[:, :, None], d_seg[joints.b][:, None])
     slope = slope_b - slope_a
     turn_part = gap_slope[:, :, None, :] * turn_slope[:, None, :, None]  # E 3 K 2
     slope = slope.at[..., 2].add(-turn_part)
@@ -101,7 +102,7 @@ def box_rows(
     value = jnp.take_along_axis(hull[..., axis], witness[:, None, :], 1)[:, 0]  # N 4
     at = jnp.take_along_axis(problem.hull[:, :, None, :], witness[:, None, :, None], 1)[:, 0]  # N 4 2
     d_seg = jnp.einsum("nk,kmv->nkmv", pick[:-1], d)
-    slope = _point_slope(at[:, :, None], d_seg[:, None])  # N 4 K 2 5
+    slope = point_slope(at[:, :, None], d_seg[:, None])  # N 4 K 2 5
     slope = jnp.where(axis[:, None, None] == 0, slope[..., 0, :], slope[..., 1, :])  # N 4 K 5
 
     start = problem.hull

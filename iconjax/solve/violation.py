@@ -9,18 +9,23 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float, Int
 
 from iconjax.solve.arrays import Code, Regions, Solution
+from iconjax.solve.coherence import one_hot_bodies, point_slope
 from iconjax.solve.objective import Flat, Level
 from iconjax.solve.pose import Bodies, jacobians, matrices
-from iconjax.solve.program import residuals, segment_matrices
+from iconjax.solve.program import move, residuals, segment_matrices
 from iconjax.solve.table import OperatorTable
 
 
 class Violations(NamedTuple):
-    """What all candidates share: one program that holds primary and secondary constraints. G constraints.
+    """What all candidates share: the constraints of one program, primary and secondary, and the meeting points of E
+    relations. There are G constraints: those of the program first, then one for each relation.
 
     Attributes:
         code, regions: the program.
-        owner: (C,) constraint that each residual belongs to; G for padding.
+        owner: (C,) constraint that each residual of the program belongs to; G for padding.
+        a, b: (E,) segments of each relation.
+        meeting: (E, 2) the place where the two meet, as material of both, px. `coincide_on_point` of it is computed
+            directly: by way of the program, which differentiates whole outlines, it takes ten times as long.
         allowed: (G,) violation that does not count, px: how far the constraint was violated before the edit.
         canvas: (4,) extent of the picture.
     """
@@ -28,6 +33,9 @@ class Violations(NamedTuple):
     code: Code
     regions: Regions
     owner: Int[Array, " C"]
+    a: Int[Array, " E"]
+    b: Int[Array, " E"]
+    meeting: Float[Array, "E 2"]
     allowed: Float[Array, " G"]
     canvas: Float[Array, "4"]
 
@@ -59,16 +67,26 @@ class MeanViolation:
         self.start = bodies.start.reshape(-1) * self.free
         reach = jnp.full((bodies.radius.shape[0], 2), 0.5 * jnp.max(problem.canvas))
         self.most = jnp.concatenate([reach, jnp.repeat(0.6 * bodies.radius[:, None], 3, 1)], 1).reshape(-1)
-        of = jax.nn.one_hot(problem.owner, problem.allowed.shape[0], dtype=self.start.dtype)
-        self.owner = of.T  # G C
+        rows = jnp.repeat(problem.allowed.shape[0] - problem.a.shape[0] + jnp.arange(problem.a.shape[0]), 2)
+        owner = jnp.concatenate([problem.owner, rows])
+        self.owner = jax.nn.one_hot(owner, problem.allowed.shape[0], dtype=self.start.dtype).T  # G C+2E
 
-    def _residuals(self, z: Flat) -> tuple[Float[Array, " C"], Float[Array, "C V"], Float[Array, "K 6"]]:
-        bodies = self.cand.bodies
+    def _residuals(self, z: Flat) -> tuple[Float[Array, " C2"], Float[Array, "C2 V"], Float[Array, "N1 6"]]:
+        """Residuals of the program, then two for each meeting point; their derivatives; the segments' transforms."""
+        bodies, problem = self.cand.bodies, self.problem
         own = z.reshape(bodies.free.shape)
         m, d = matrices(own, bodies), jacobians(own, bodies)
-        problem = self.problem
         value, by_matrix = residuals(problem.code, problem.regions, m, self.cand.body, self.table, self.wide)
-        return value, jnp.einsum("ckm,kmv->ckv", by_matrix, d).reshape(value.shape[0], -1), m
+        slope = jnp.einsum("ckm,kmv->ckv", by_matrix, d)
+        segments = segment_matrices(m, self.cand.body)
+        apart = move(problem.meeting, segments[problem.a]) - move(problem.meeting, segments[problem.b])
+        by_segment = point_slope(problem.meeting[:, None], d)  # E K 2 5
+        pick = one_hot_bodies(self.cand.body, m.shape[0]).astype(z.dtype)
+        sides = pick[problem.a] - pick[problem.b]  # E K
+        apart_slope = jnp.einsum("ek,ekiv->eikv", sides, by_segment)
+        value = jnp.concatenate([value, apart.reshape(-1)])
+        slopes = jnp.concatenate([slope, apart_slope.reshape(-1, *slope.shape[1:])])
+        return value, slopes.reshape(value.shape[0], -1), segments
 
     def value_and_slope(self, z: Flat, level: Level) -> tuple[Float[Array, ""], Flat]:
         """The loss and its derivative."""
@@ -76,7 +94,7 @@ class MeanViolation:
         total, weight = self._total(value)
         return total, weight @ slope
 
-    def _total(self, value: Float[Array, " C"]) -> tuple[Float[Array, ""], Float[Array, " C"]]:
+    def _total(self, value: Float[Array, " C2"]) -> tuple[Float[Array, ""], Float[Array, " C2"]]:
         """Mean violation, and its derivative by the residuals."""
         size = jnp.sqrt(self.owner @ value**2 + 1e-18)
         excess = size - 1e-9 - self.problem.allowed
@@ -86,6 +104,5 @@ class MeanViolation:
 
     def solution(self, z: Flat) -> Solution:
         """Transforms, residuals of all constraints (switched on or not), and the loss."""
-        value, _, m = self._residuals(z)
-        segments = segment_matrices(m, self.cand.body)[:-1]
-        return Solution(z.reshape(self.cand.bodies.free.shape), segments, value, self._total(value)[0])
+        value, _, segments = self._residuals(z)
+        return Solution(z.reshape(self.cand.bodies.free.shape), segments[:-1], value, self._total(value)[0])
