@@ -127,6 +127,13 @@ def _next(
         return word, "", None, i + 1
     if lexical is not None:
         entry, end = lexical
+        if entry.value == "around" and words[end : end + 1] in (["the"], ["its"]):
+            spot = phrases.word(end + 1)
+            last = not phrases.word(end + 2) or lexicon.match(words, end + 2, "separator") is not None
+            if last and lexicon.knows(spot, {"joint"}) and names.hear(spot) is None:
+                # "at the hinge": where it is joined, as it turns anyhow
+                names.notes.append(f'"{" ".join(words[i : end + 2])}" taken for where it is joined')
+                return "stop", "", None, end + 2
         if _idle(entry, end, words, quantities, phrases):
             return "stop", "", None, end
         kind = "without" if entry.value == "without" else entry.category
@@ -154,6 +161,8 @@ def _lexical(
             continue
         if category == "direction" and _announces(words, got[1], lexicon, phrases):
             continue
+        if category == "adjective" and _turning(words, i, got[1], lexicon):
+            continue
         if category == "unsupported" and names_noun(phrases, i):
             continue
         best = got
@@ -170,6 +179,16 @@ def _announces(words: Sequence[str], end: int, lexicon: Lexicon, phrases: Phrase
         return True
     sides = (lexicon.match(words, at, "side") for at in (end - 1, end - 2) if at >= 0)
     return phrases.noun_at(end, False) or any(s is not None and s[1] > end for s in sides)
+
+
+def _turning(words: Sequence[str], i: int, end: int, lexicon: Lexicon) -> bool:
+    """Whether what may be an adjective is the verb: "have it lean | 15 degrees"."""
+    verb = lexicon.match(words[:end], i, "verb")
+    if verb is None or verb[0].value != "rotate":
+        return False
+    angle = any(lexicon.knows(w, {"unit"}) and lexicon.match([w], 0, "unit")[0].value == "deg"  # type: ignore[index]
+                for w in words[end : end + 4])
+    return angle or any(lexicon.match(words, end, c) is not None for c in ("direction", "sense"))
 
 
 def names_noun(phrases: PhraseReader, i: int) -> bool:

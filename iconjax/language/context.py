@@ -54,6 +54,8 @@ class Context:
             if not self.themes:
                 raise TranslationError("the request does not say what should change")
             return Reference(self.themes[0])
+        if spot := next((p.loose for p in phrases if p.loose), ""):
+            raise TranslationError(f'"{spot}" is not one of the things in the picture')
         found = self._all(phrases, (), relation)
         self.last = next((p for p in phrases if p.nouns), self.last)
         return found
@@ -78,6 +80,8 @@ class Context:
 
     def one(self, phrase: Phrase, theme: Sequence[str] = (), relation: str = "") -> Reference:
         """What one phrase means."""
+        if phrase.loose:
+            self.names.notes.append(f'"{phrase.text}" taken for all of it')
         if phrase.special is not None:
             return Reference(("canvas" if phrase.special == "canvas" else "@ground",))
         if phrase.pronoun is not None:
@@ -152,7 +156,7 @@ class Context:
             known = self.themes
         else:
             known = [m for m in self.mentions if not set(m) & set(theme)]
-            if not known and self.themes and phrase.text in ("it", "its", "their", "his", "her"):
+            if not known and phrase.text in ("it", "its", "their", "his", "her"):
                 known = [tuple(theme)]
         fitting = [m for m in known if (len(m) > 1) == (phrase.pronoun == "them")] or known
         if not fitting:

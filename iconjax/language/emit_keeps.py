@@ -43,7 +43,8 @@ def keep(out: Collector, clause: Clause) -> None:
 def keep_relation(out: Collector, clause: Clause, name: str) -> None:
     for other in clause.reference:
         s, t, kind = quoted(name), region(clause.side, quoted(other)), clause.relation
-        if kind in ("on", "touch", "reach", "around"):
+        within = kind == "inside" and not out.shapes.lies(name, "inside", other)
+        if kind in ("on", "touch", "reach", "around") or within:
             out.add(call("touch", s, t))
         elif kind in SIDED:
             out.add(call(SIDED[kind], s, quoted(other)))

@@ -51,11 +51,8 @@ def place(out: Collector, clause: Clause) -> None:
     ):
         out.moves("translate", clause)
     kind = clause.relation
-    for other in clause.reference:
-        if other == "@ground":
-            raise TranslationError(
-                "the ground is not one of the things in the picture; say where to go in another way"
-            )
+    if "@ground" in clause.reference:
+        return grounded(out, clause)
     for name in clause.theme:
         if kind == "between":
             between(out, name, clause)
@@ -78,7 +75,7 @@ def room(out: Collector, clause: Clause, name: str, other: str) -> bool:
     wide, _ = out.shapes.size(name)
     scene = out.shapes.scene
     room = {"left_of": x0 - wide, "right_of": scene.width - x1 - wide}
-    return room.get(clause.relation, 0.0) >= 0
+    return room.get(f"{side_of(clause)}_of" if side_of(clause) else clause.relation, 0.0) >= 0
 
 
 def related(out: Collector, clause: Clause, name: str, other: str) -> None:
@@ -94,6 +91,8 @@ def related(out: Collector, clause: Clause, name: str, other: str) -> None:
         case "on" | "touch" | "reach":
             if kind == "on":
                 out.add(call("on_top", s, t))
+            elif clause.direction == "down" and not clause.side and comes_down(out, name, other):
+                out.add(call("on_top", s, t))
             out.add(call("touch", region(clause.theme_side, s), region(clause.side, t)))
         case "above" | "below" | "left_of" | "right_of":
             out.add(call(SIDED[kind], s, t))
@@ -102,13 +101,35 @@ def related(out: Collector, clause: Clause, name: str, other: str) -> None:
         case "centered" | "centered_h" | "same_place":
             centre(out, kind, name, other)
         case "beside":
-            beside(out, name, other)
+            beside(out, clause, name, other)
         case "away" | "toward":
             nearer(out, clause, name, other)
         case _:
             raise TranslationError(f'"{kind}" is not understood here')
     if kind in ("on", "above", "below") and not clause.side:
         over(out, name, other)
+
+
+def grounded(out: Collector, clause: Clause) -> None:
+    """Down to the ground, which is where the lowest of the other things stands."""
+    shapes, last = out.shapes, 0.9 * out.shapes.scene.width
+    for name in clause.theme:
+        others = [o for o in shapes.scene.objects if o != out.object_of(name) and shapes.size(o)[0] < last]
+        lowest = max(others, key=lambda o: shapes.box(o)[3], default=None)
+        if clause.theme_side not in (None, "bottom"):
+            raise TranslationError(f"the {clause.theme_side} of a thing cannot go to the ground by itself")
+        if lowest is None or clause.relation not in ("on", "touch", "reach", "flush"):
+            raise TranslationError(
+                "the ground is not one of the things in the picture; say where to go in another way"
+            )
+        out.equal(call("max_y", quoted(name)), call("max_y", quoted(lowest)))
+        keep_axis(out, clause, name, lowest)
+
+
+def comes_down(out: Collector, name: str, other: str) -> bool:
+    """Whether a thing that goes down meets the other from above."""
+    above = out.shapes.box(name)[3] <= out.shapes.box(other)[1] + 0.01 * out.shapes.scene.size
+    return above and out.shapes.axis_gap(name, other, 0) < 0
 
 
 def _meets_sides(clause: Clause, other: str) -> bool:
@@ -167,14 +188,28 @@ def apart(out: Collector, clause: Clause, name: str, other: str) -> None:
     out.equal(call(mine, quoted(name)), call(operator, call(theirs, quoted(other)), clause.amount.value))
 
 
-def beside(out: Collector, name: str, other: str) -> None:
+def beside(out: Collector, clause: Clause, name: str, other: str) -> None:
     s, t, gap = quoted(name), quoted(other), float(round(NEAR_SHARE * out.shapes.scene.size))
-    if out.shapes.centre(name)[0] <= out.shapes.centre(other)[0]:
+    (x0, _, x1, low), (a0, _, a1, ground) = out.shapes.box(name), out.shapes.box(other)
+    side = side_of(clause)
+    if "touching" in clause.manner and not side and out.shapes.axis_gap(name, other, 0) > 0:
+        side = "left" if x0 + x1 <= a0 + a1 else "right"
+    if side:
+        out.add(call(f"on_{side}", s, t))
+    if "touching" in clause.manner:
+        out.add(call("touch", s, t))
+    elif (side or ("left" if x0 + x1 <= a0 + a1 else "right")) == "left":
         out.equal(call("max_x", s), call("minus", call("min_x", t), gap))
     else:
         out.equal(call("min_x", s), call("plus", call("max_x", t), gap))
-    if out.shapes.axis_gap(name, other, 1) > 0:
+    level = side and abs(low - ground) < 0.05 * out.shapes.scene.size
+    if level or out.shapes.axis_gap(name, other, 1) > 0:
         out.equal(call("max_y", s), call("max_y", t))
+
+
+def side_of(clause: Clause) -> str:
+    """The side of the other thing that a place beside it names: left, right or ""."""
+    return next((m[3:] for m in ("at left", "at right") if m in clause.manner), "")
 
 
 def nearer(out: Collector, clause: Clause, name: str, other: str) -> None:

@@ -50,7 +50,12 @@ def sense(out: Collector, name: str, clause: Clause) -> int:
 
 def orient(out: Collector, clause: Clause) -> None:
     """A turn until the thing is level, upright, or parallel to another."""
-    out.moves("rotate", clause)
+    whole = [n for _, n in out.motions if all(out.shapes.part_of(t, n) for t in clause.theme)]
+    if "follow" in clause.manner and whole:
+        # "bring the hammer down so that its head is level": the hammer turns
+        out.motions[("rotate", whole[-1])] = None
+    else:
+        out.moves("rotate", clause)
     for name in clause.theme:
         relation, s = clause.relation, quoted(name)
         if relation in ("parallel", "perpendicular"):

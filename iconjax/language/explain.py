@@ -106,6 +106,7 @@ TELLERS: Mapping[str, Callable[[Clause], str]] = {
     "turn": lambda _: "may turn, as far as the next line says",
     "resize": lambda _: "may change its size, as far as the next line says",
     "topic": lambda _: "is what the next line is about",
+    "side": lambda c: f"is on the {c.direction}",
     "stay": lambda _: "stays",
     "swap": lambda _: "change places",
     "align": lambda c: f"their {c.side} sides are brought in line",

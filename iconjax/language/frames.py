@@ -31,14 +31,19 @@ class Shift:
 
     direction: str
     amount: Amount | None = None
+    place: bool = False
 
 
 @dataclass
 class Relation:
-    """A relation as written, waiting for or holding what it is to."""
+    """A relation as written, waiting for or holding what it is to.
+
+    `compared`: it was read after "as wide as the monitor", and so tells of the monitor.
+    """
 
     kind: str
     reference: tuple[Phrase, ...] = ()
+    compared: tuple[Phrase, ...] = ()
 
 
 @dataclass
@@ -90,11 +95,33 @@ class SlotFiller:
             else:
                 getattr(self, f"_on_{item.kind}", self._mark)(item)
         slots = self.slots
+        self._cut_off()
         if isinstance(self.waiting, Relation) and not self.waiting.reference:
             self._dangling(self.waiting)
         if slots.amount is not None and self.last is not None and self.last.amount is None:
             self.last.amount, slots.amount = slots.amount, None
+        self._measured_spots()
         return slots
+
+    def _measured_spots(self) -> None:
+        """A spot that the picture does not tell apart has no size to compare with."""
+        amounts = [self.slots.amount, *(c.amount for c in self.slots.changes)]
+        owners = [p for a in amounts if a is not None and a.of is not None for p in a.of.owners]
+        for phrase in (*owners, *(p for c in self.slots.changes for p in c.reference)):
+            if phrase.loose:
+                raise TranslationError(f'"{phrase.loose}" is not one of the things in the picture')
+
+    def _cut_off(self) -> None:
+        """ "Cut a third off the pole": what is cut is the theme."""
+        slots = self.slots
+        shrinks = any(v.value == "scale" and int(v.info.get("sign", 0)) < 0 for v in slots.verbs)
+        offs = [r for r in slots.relations if r.kind == "outside"]
+        if shrinks and len(offs) == 1 and not slots.theme and slots.amount is not None:
+            slots.relations.remove(offs[0])
+            slots.theme = offs[0].reference
+            slots.marks["off"] = "off"
+        elif any(v.value == "scale" and str(v.info["base"]).endswith(" off") for v in slots.verbs):
+            slots.marks["off"] = "off"
 
     def _dangling(self, relation: Relation) -> None:
         directions = {"above": "up", "below": "down"}
@@ -122,6 +149,9 @@ class SlotFiller:
             self.slots.relations.append(Relation("to", phrases))
         elif not self.slots.theme and self.mode != "to":
             self.slots.theme = phrases
+        elif self._gives(phrases):
+            # "give the table a top that is twice as long"
+            self.slots.theme = (replace(phrases[0], owner=self.slots.theme[0]),)
         elif self.mode == "to" and self.slots.theme == () and self.slots.verbs:
             self.slots.relations.append(Relation("to", phrases))
         else:
@@ -129,6 +159,12 @@ class SlotFiller:
         self.waiting, self.mode = None, ""
 
     mode_is_plain = True
+
+    def _gives(self, phrases: tuple[Phrase, ...]) -> bool:
+        giving = any(v.info["base"] in ("give", "have", "has", "get") for v in self.slots.verbs)
+        first = not (self.slots.changes or self.slots.shifts or self.slots.relations or self.slots.amount)
+        single = len(phrases) == len(self.slots.theme) == 1
+        return giving and first and single and not phrases[0].owner and bool(phrases[0].nouns)
 
     def _compare(self, change: Change, phrases: tuple[Phrase, ...]) -> None:
         if phrases[0].pronoun and not phrases[0].owner:
@@ -139,7 +175,14 @@ class SlotFiller:
         measure: Quantity = item.data
         self.slots.values.append(measure)
         own = not measure.owners or all(p.pronoun and not p.owner and not p.side for p in measure.owners)
-        if isinstance(self.waiting, Relation):
+        if isinstance(self.waiting, Relation) and self.waiting.kind == "outside" and measure.owners:
+            # "take 10 % off the height of the chair"
+            self.waiting.reference, self.waiting, amount = measure.owners, None, self.slots.amount
+            self._cut_off()
+            self._change(Change(measure.dim))
+            if amount is None or not self.slots.theme:
+                raise TranslationError(f'the part of "{item.text}" in the request is unclear')
+        elif isinstance(self.waiting, Relation):
             # "at the same height as the roof's height"
             raise TranslationError(f'the part of "{item.text}" in the request is unclear')
         if self.waiting is not None and isinstance(self.waiting, Change) and measure.owners:
@@ -253,7 +296,8 @@ class SlotFiller:
         self.mode = item.value
         if item.data.value == "to" and "down" in item.text.split():
             self.slots.marks["down to"] = item.text
-        self.mode_is_plain = item.text in ("to", "over to", "up to", "down to", "back to")
+        plain = ("to", "over to", "up to", "down to", "back to")
+        self.mode_is_plain = item.text in plain or item.text.startswith(("right ", "all the way "))
         if self.mode == "to" and isinstance(self.waiting, Relation):
             raise TranslationError(f'"{self.waiting.kind}" what? the request does not say')
 
@@ -290,13 +334,21 @@ class SlotFiller:
             "downright": ("down", "right"),
         }.get(item.value, (item.value,)):
             self._direction(one)
+        beside = any(r.kind in ("beside", "touch", "to") and r.reference for r in self.slots.relations)
+        alone = not (self.slots.verbs or self.slots.theme or self.slots.relations)
+        sided = item.text.startswith(("on ", "to its", "at ")) and item.value in ("left", "right")
+        if sided and (beside or alone):
+            self.slots.shifts[-1].place = True  # "next to the oven, on the left"
 
     def _on_relation(self, item: Chunk) -> None:
         if isinstance(self.waiting, Relation) and self.waiting.kind not in ("parallel", "touch"):
             raise TranslationError(f'the part of "{item.text}" in the request is unclear')
         if item.value == "toward" and not item.text.startswith(("to", "in")):
             self.slots.marks["closer"] = item.text
-        self.waiting = Relation(item.value)
+        compared = next((c.reference for c in self.slots.changes if c.reference), ())
+        if not compared and self.slots.amount is not None and self.slots.amount.of is not None:
+            compared = tuple(p for p in self.slots.amount.of.owners if not p.pronoun)
+        self.waiting = Relation(item.value, compared=compared)
         self.slots.relations.append(self.waiting)
         self.mode = ""
 
@@ -307,6 +359,7 @@ class SlotFiller:
 
     def _on_verb(self, item: Chunk) -> None:
         self.slots.verbs.append(item.data)
+        self.mode = ""
         if item.value == "match" and self.slots.theme == () and not self.slots.values:
             return
         if item.value == "match":

@@ -12,6 +12,8 @@ from iconjax.language.shapes import Shapes
 from iconjax.language.words import mend
 from iconjax.scene.types import Scene
 
+ADJECTIVAL = ("ed", "ish", "ous", "ive", "ful", "less", "ical", "most")
+"""Endings of adjectives: such words describe, and name nothing."""
 GEOMETRIC = {
     "left": (0, 1),
     "right": (0, -1),
@@ -58,6 +60,9 @@ class Phrase:
         special: "canvas" or "ground".
         count: "the two birds".
         ignored: words about the thing that nothing in the picture confirms; only whole objects may have them.
+        foreign: the words in `ignored` name an owner that the picture does not know ("of the joystick").
+        loose: a spot on the thing that the picture does not tell apart ("the rim", "the hand"); it can be met,
+            not changed.
         text: as written.
     """
 
@@ -74,6 +79,8 @@ class Phrase:
     special: str | None = None
     count: int | None = None
     ignored: tuple[str, ...] = ()
+    foreign: bool = False
+    loose: str = ""
 
 
 @dataclass(frozen=True)
@@ -120,6 +127,8 @@ class Names:
         if self.lexicon.knows(word, {"stop", "verb", "relation", "mode", "number", "unit", "pronoun"}):
             return None
         near = mend(singular, self.vocabulary) if word not in self.lexicon.words else None
+        if near is not None and word in (near + "d", near + "ed"):
+            return None  # "striped" describes, and is no stripe
         if near is None:
             same = self.lexicon.synonyms.get(singular, frozenset()) & self.vocabulary
             near = next(iter(same)) if len(same) == 1 else None
@@ -142,7 +151,7 @@ class Names:
         found = self._narrow(found, phrase)
         if phrase.indefinite is None and len(found) > 1 and not phrase.plural:
             raise TranslationError(f'"{phrase.text}" could be any of {_listed([e.name for e in found])}')
-        if phrase.ignored and not (len(found) == 1 and found[0].whole):
+        if phrase.ignored and not (len(found) == 1 and self._may_ignore(found[0], phrase)):
             raise TranslationError(f'"{" ".join(phrase.ignored)}" is not understood')
         if phrase.ignored:
             self.notes.append(f'"{phrase.text}" taken for "{found[0].name}", the only one in the picture')
@@ -152,8 +161,22 @@ class Names:
         if phrase.count is not None and len(names) != phrase.count:
             raise TranslationError(f'"{phrase.text}" could be {phrase.count} of {_listed(names)}')
         if phrase.plural and len(names) == 1:
-            return self.members_if_collection(names[0])
+            names = self.members_if_collection(names[0])
+            if len(names) == 1 and phrase.text.startswith("both "):
+                raise TranslationError(f'"{phrase.text}" are two, and the picture has "{names[0]}" only')
         return names
+
+    def _may_ignore(self, entity: Entity, phrase: Phrase) -> bool:
+        """Whether words that name nothing here may be left out, because the thing is the only such one.
+
+        A part is not: "the elephant's trunk" is no tree's. But where the object is itself called by the name of a
+        part ("Stick:Shaft"), the whole has no name in the picture, and the words name that.
+        """
+        if entity.whole:
+            return True
+        if phrase.foreign:
+            return all(self.lexicon.knows(w, {"partlike"}) for w in entity.object_words)
+        return all(w.endswith(ADJECTIVAL) for w in phrase.ignored)
 
     def members_if_collection(self, name: str) -> tuple[str, ...]:
         """The parts of an object that is a collection ("Candles:Left", "Candles:Right"), or its name."""

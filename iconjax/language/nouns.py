@@ -79,6 +79,9 @@ class NounReader:
             return (phrase, i) if phrase.indefinite else None
         if all(self.lexicon.knows(n, {"modifier", "ordinal"}) for n in nouns) and not self._is_name(nouns):
             return None  # "the right" alone is no thing
+        kind = self.word(i)
+        if kind and self.names.hear(kind) is None and self.lexicon.knows(kind, {"kind"}):
+            phrase, i = with_(phrase, ignored=(*phrase.ignored, kind)), i + 1  # "the palm tree"
         return self._from_side(with_(phrase, nouns=tuple(dict.fromkeys(nouns)), plural=plural), i)
 
     def _special(self, i: int, announced: bool) -> str | None:
@@ -141,7 +144,7 @@ class NounReader:
         )
 
     def _premodifier(self, i: int) -> tuple[str, str] | None:
-        word = self.words[i]
+        word = self.word(i)
         following = self.noun_follows(i + 1) or self.word(i + 1) in ("one", "ones")
         if not following and word not in ("other",):
             return None

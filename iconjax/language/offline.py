@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from itertools import product
 
 from iconjax.errors import TranslationError
+from iconjax.language.asides import without_asides
 from iconjax.language.base import Translation
 from iconjax.language.chunks import Chunk, chunk
 from iconjax.language.clauses import Clause
@@ -15,7 +16,9 @@ from iconjax.language.explain import describe, refusal
 from iconjax.language.frames import SlotFiller, Slots
 from iconjax.language.lexicon import Lexicon, lexicon
 from iconjax.language.names import Names, Phrase
+from iconjax.language.reading import FOLLOWING
 from iconjax.language.readings import Reader
+from iconjax.language.tidy import tidy
 from iconjax.language.words import mend, split_hyphens, tokenise
 from iconjax.scene.types import Scene
 
@@ -48,7 +51,7 @@ class OfflineTranslator:
                 raise TranslationError(
                     f"no meaning for {', '.join(repr(u) for u in unknown)}" if chunks else "it is empty"
                 )
-            clauses = self._read(chunks, words, names, understood)
+            clauses = tidy(self._read(chunks, words, names, understood))
             _check_guesses(clauses)
             program = emit(clauses, names.shapes)
             if not any(
@@ -71,12 +74,13 @@ class OfflineTranslator:
         out = []
         for word in words:
             if word.isalpha() and word not in words_of.words and names.hear(word) is None:
-                better = mend(word, (w for w in words_of.words if len(w) > 4))
+                known = word in words_of.synonyms or words_of.singular(word) in words_of.synonyms
+                better = None if known else mend(word, (w for w in words_of.words if len(w) > 4))
                 if better is not None:
                     names.notes.append(f'"{word}" read as "{better}"')
                     word = better
             out.append(word)
-        return out
+        return without_asides(out, words_of, names)
 
     def _read(
         self, chunks: Sequence[Chunk], words: Sequence[str], names: Names, understood: list[str]
@@ -172,6 +176,10 @@ def _clauses(items: Sequence[Item], words: Sequence[str]) -> Iterator[Slots]:
             continue
         groups[-1][1].append(item)
     groups = [g for g in groups if any(not (isinstance(c, Chunk) and c.kind == "instead") for c in g[1])]
+    for at in range(1, len(groups) - 1):
+        # "shrink it, without distorting it, until ...": what follows belongs to what was before
+        if groups[at][0] == "without" and groups[at + 1][0] in FOLLOWING:
+            groups[at], groups[at + 1] = groups[at + 1], groups[at]
     for index, (connector, group) in enumerate(groups):
         try:
             slots = SlotFiller(group).fill()

@@ -26,19 +26,46 @@ class PhraseReader(NounReader):
         ):
             if self.word(i) == "'s":
                 after = self._possessed(i + 1, phrase)
+                if after is None and phrase.nouns and self.word(i + 1) in ("", ".", ",", ";", "and", "!"):
+                    after = Phrase("", owner=phrase), i + 1  # "as wide as the queen's"
                 if after is None:
                     break
                 phrase, i = after
             else:
                 owner = self.read(i + 1)
-                strange = self.strange(i + 2) if self.word(i + 1) == "the" else ()
+                strange = self._stranger(i + 2) if self.word(i + 1) == "the" else ()
                 if owner is None and strange and phrase.nouns and not phrase.owner:
-                    phrase, i = with_(phrase, ignored=strange), i + 3
+                    phrase, i = with_(phrase, ignored=strange, foreign=True), i + 2 + len(strange)
                     break
                 if owner is None or owner[0].pronoun not in (None, "it", "them"):
                     break
                 phrase, i = with_(phrase, owner=owner[0]), owner[1]
         return with_(phrase, text=" ".join(self.words[start:i]).replace(" 's", "'s")), i
+
+    def _stranger(self, i: int) -> tuple[str, ...]:
+        """Up to two words at `i` that name nothing here, where the name of a thing is due: "the scales"."""
+        out: tuple[str, ...] = ()
+        while len(out) < 2:
+            word = self.word(i + len(out))
+            kinds = {e.category for e in self.lexicon.phrases.get((word,), ())}
+            doing = bool(kinds) and kinds <= {"verb", "kind", "posture"}
+            if self.strange(i + len(out)) or (doing and not out and self.names.hear(word) is None):
+                out = (*out, word)
+            else:
+                break
+        return out
+
+    def _loose(self, i: int) -> tuple[Phrase, int] | None:
+        """A spot on a thing that the picture does not tell apart: "rim of the bowl", "hole in the post"."""
+        spot = self.word(i)
+        if not self.lexicon.knows(spot, {"loose"}) or self.names.hear(spot) is not None:
+            return None
+        if self.word(i + 1) not in ("of", "in", "on", "at"):
+            return None
+        whole = self.read(i + 2)
+        if whole is None or whole[0].pronoun or whole[0].special or whole[0].side:
+            return None
+        return with_(whole[0], loose=spot), whole[1]
 
     def _core(self, i: int) -> tuple[Phrase, int] | None:
         start, plural, announced, quantified = i, False, False, False
@@ -59,6 +86,14 @@ class PhraseReader(NounReader):
         indefinite = None
         if self.word(i) in ("one", "another") and not announced and self.noun_follows(i + 1):
             indefinite, announced, i = "one", True, i + 1
+        if announced and owner is None and not quantified and (loose := self._loose(i)) is not None:
+            return loose
+        foreign = self._stranger(i) if announced and owner is None and self.word(start) == "the" else ()
+        if foreign and self.word(i + len(foreign)) == "'s":
+            # "the barrier's arm" where no barrier has a name
+            found = self.body(i + len(foreign) + 1, True)
+            if found is not None and not found[0].ignored:
+                return with_(found[0], ignored=foreign, foreign=True), found[1]
         side = self._side(i, announced, owner)
         if side is not None:
             return side
@@ -71,6 +106,8 @@ class PhraseReader(NounReader):
             return Phrase("them", pronoun="them", plural=True), i + 1
         if quantified and owner is None and i == quant[1] and self.word(start) in ("both", "each", "all"):  # type: ignore[index]
             return Phrase(self.word(start), pronoun="them", plural=True), i
+        if self.word(start) in ("that", "those") and self.word(start + 1) == "of":
+            return Phrase(self.word(start)), start + 1  # "that of the king": the same part, of another
         pronoun = self.lexicon.match(self.words, start, "pronoun")
         if pronoun is not None and pronoun[0].value in ("it", "them"):
             return Phrase(
@@ -99,6 +136,9 @@ class PhraseReader(NounReader):
         return None
 
     def _possessed(self, i: int, owner: Phrase) -> tuple[Phrase, int] | None:
+        spot = self.word(i)
+        if self.lexicon.knows(spot, {"loose"}) and self.names.hear(spot) is None and owner.nouns:
+            return with_(owner, loose=spot), i + 1
         side = self.lexicon.match(self.words, i, "side")
         alone = side is not None and not self.noun_at(side[1], False)
         if side is not None and alone and not self._has_part(owner, self.words[i : side[1]]):

@@ -16,6 +16,9 @@ def negated(context: Context, slots: Slots, theme: Reference) -> Iterator[Clause
     if slots.relations:
         for relation in slots.relations:
             target = context.reference(relation.reference, theme.names)
+            if relation.kind == "outside" and target.names == ("@ground",):
+                yield Clause("keep", theme.names, dimension="bottom")  # "without lifting it off the ground"
+                continue
             if relation.kind not in ("touch", "overlap"):
                 raise TranslationError(f'"not {relation.kind}" is not understood')
             shapes = context.names.shapes
@@ -26,6 +29,10 @@ def negated(context: Context, slots: Slots, theme: Reference) -> Iterator[Clause
     elif slots.changes:
         for change in slots.changes:
             yield Clause("keep", theme.names, dimension=change.dim)
+    elif "distort" in kinds:
+        yield Clause("keep", theme.names, dimension="proportions")
+    elif "uproot" in kinds:
+        yield Clause("keep", theme.names, dimension="bottom")
     elif "rotate" in kinds:
         yield Clause("keep", theme.names, dimension="rotation")
     elif (
@@ -64,6 +71,9 @@ def keep(context: Context, slots: Slots, theme: Reference) -> Iterator[Clause]:
             yield Clause("keep", names, relation=relation.kind, reference=target.names, side=target.side)
     for change in slots.changes:
         yield Clause("keep", names, dimension=change.dim)
+    if slots.marks.get("fixed", "").endswith(("level", "height")):
+        yield Clause("keep", names, dimension="horizontal")
+        return
     if "orient" in slots.marks:
         yield Clause("keep", names, dimension="rotation")
     if "centered" in slots.text or "centred" in slots.text:

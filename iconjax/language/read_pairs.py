@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from iconjax.errors import TranslationError
 from iconjax.language.clauses import Amount, Clause
 from iconjax.language.context import Context
@@ -49,6 +51,22 @@ def gap(context: Context, slots: Slots, theme: Reference) -> Clause:
         final = factor(amount, sign, Change("gap"), False)
     moved = "rotate" if "rotate" in {*slots.kinds(), *(v.value for v in context.verbs)} else "translate"
     return Clause("gap", names, final, dim, reference=reference, side=theme.side, manner=frozenset({moved}))
+
+
+def follow(context: Context, slots: Slots, theme: Reference) -> Iterator[Clause]:
+    """ "The shade comes down with it": what touched it touches it afterwards."""
+    others = [r for r in slots.relations if r.kind == "with"]
+    if slots.changes or slots.amount or len(others) != len(slots.relations) or slots.kinds() & {"rotate", "scale"}:
+        raise TranslationError(f"how {listed(theme.names)} should go with it is not understood")
+    target = context.reference(others[0].reference, theme.names).names if others else ()
+    target = target or next((m for m in context.themes if not set(m) & set(theme.names)), ())
+    shapes = context.names.shapes
+    pairs = [(n, t) for n in theme.names for t in target if shapes.lies(n, "touch", t)]
+    if {n for n, _ in pairs} != set(theme.names):
+        raise TranslationError(f"what {listed(theme.names)} should go with is not clear")
+    yield Clause("go", theme.names)
+    for name, other in pairs:
+        yield Clause("keep", (name,), relation="touch", reference=(other,))
 
 
 def align(context: Context, slots: Slots, theme: Reference) -> Clause:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from iconjax.errors import TranslationError
 from iconjax.language.clauses import Amount, Clause
@@ -18,19 +19,27 @@ MEASURED = ("away", "toward", "above", "below", "left_of", "right_of")
 def move(context: Context, slots: Slots, theme: Reference, relations: list[Relation]) -> Iterator[Clause]:
     """Distances first, then places; the motion alone where the next clause says where to."""
     names = theme.names
+    sides = [s for s in slots.shifts if s.place and s.amount is None]
+    slots.shifts = [s for s in slots.shifts if s not in sides]
     shifts = _shifts(slots, names, relations)
     direction = _way(context, slots, names, shifts, relations)
     yield from _distances(context, slots, names, shifts, relations)
     context.direction = direction if followed(slots) else ""
     targets = [r for r in relations if r.kind != "along"]
     for relation in targets:
-        yield related(context, relation, theme, direction, slots)
+        clause = related(context, relation, theme, direction, slots)
+        if sides and clause.relation in ("beside", "touch"):
+            clause = replace(clause, relation="beside", manner=clause.manner | {f"at {sides[0].direction}"})
+            clause = replace(clause, manner=clause.manner | ({"touching"} if relation.kind != "beside" else set()))
+        yield clause
     centering = "center" in slots.kinds()
     if centering or "squarely" in slots.marks:
         yield from centred(context, targets, theme, slots)
     if followed(slots) and not targets and not centering and not any(s.amount for s in shifts):
         yield Clause("go", names)
-    elif not (shifts or targets or centering or ("rotate" in slots.kinds() and slots.connector)):
+        if len(names) > 1 and "together" in slots.marks:
+            yield Clause("together", names)
+    elif not (shifts or targets or centering or "squarely" in slots.marks or ("rotate" in slots.kinds() and slots.connector)):
         raise TranslationError(
             f"where {listed(names)} should go is not said: add a direction and a distance, or a place"
         )
@@ -139,12 +148,22 @@ def related(context: Context, relation: Relation, theme: Reference, direction: s
             return Clause(
                 "place", names[:1], relation=relation.kind, reference=names[1:], theme_side=theme.side
             )
-        raise TranslationError(f'"{relation.kind}" what? the request does not say')
-    target = context.reference(relation.reference, names)
+        target = _the_other(context, relation, names, slots)
+    else:
+        target = context.reference(relation.reference, names)
     manner = frozenset({"follow"}) if slots.connector in FOLLOWING else frozenset()
     kind = "touch" if relation.kind == "to" else relation.kind
+    manner = manner | {"to"} if relation.kind == "to" else manner
     if relation.kind == "to" and target.names == ("canvas",):
         kind = "flush"
+    whose = relation.reference[0].owner if relation.reference else None
+    if kind in ("on", "touch") and target.side in ("left", "right") and whose is not None and whose.pronoun:
+        # "next to the oven, on its left side"
+        if relation.reference[0].text.endswith("side"):
+            kind, target = f"{target.side}_of", Reference(target.names)
+    vertical = direction in ("up", "down")
+    if kind == "flush" and vertical and not target.side and not theme.side and target.names != ("canvas",):
+        kind = "same_place"  # "raise it until it is level with the other"
     if relation.kind == "around":
         raise TranslationError('"around" does not say a place')
     return Clause(
@@ -158,6 +177,15 @@ def related(context: Context, relation: Relation, theme: Reference, direction: s
         theme_side=theme.side,
         manner=manner,
     )
+
+
+def _the_other(context: Context, relation: Relation, names: tuple[str, ...], slots: Slots) -> Reference:
+    """ "(Move A next to B) so that they touch"."""
+    both = bool(slots.theme) and all(p.pronoun == "them" for p in slots.theme)
+    others = [m for m in context.mentions if len(m) == 1 and not set(m) & set(names)]
+    if both and len(names) == 1 and others and relation.kind in ("touch", "overlap"):
+        return Reference(others[0])
+    raise TranslationError(f'"{relation.kind}" what? the request does not say')
 
 
 def join(context: Context, slots: Slots, theme: Reference, kind: str) -> Iterator[Clause]:

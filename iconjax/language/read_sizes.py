@@ -20,7 +20,7 @@ def scale(context: Context, slots: Slots, theme: Reference) -> Iterator[Clause]:
         info["sign"] = 1 if lifting == "up" else -1
         slots.verbs = [v for v in slots.verbs if not v.info.get("direction")]
     pinned = pin(context, slots, info)
-    changes = slots.changes or [Change(default_dim(context, slots, info, pinned), 0, slots.amount)]
+    changes = slots.changes or [Change(default_dim(context, slots, theme, info, pinned), 0, slots.amount)]
     if slots.changes and slots.amount is not None:
         changes[0].amount = changes[0].amount or slots.amount
     slots.amount = None
@@ -86,7 +86,9 @@ def _scaled_up_or_down(slots: Slots, info: dict[str, object]) -> None:
             slots.amount = slots.amount or shift.amount
 
 
-def default_dim(context: Context, slots: Slots, info: dict[str, object], pinned: str) -> str:
+def default_dim(
+    context: Context, slots: Slots, theme: Reference, info: dict[str, object], pinned: str
+) -> str:
     amount = slots.amount
     if amount is not None and amount.of is not None and amount.of.dim not in ("gap",) and not info.get("dim"):
         return amount.of.dim
@@ -94,6 +96,10 @@ def default_dim(context: Context, slots: Slots, info: dict[str, object], pinned:
         return str(info["dim"])
     if pinned:
         return "vert" if pinned in ("top", "bottom") else "hori"
+    if "off" in slots.marks:
+        return "length"
+    if info.get("factor") == 0.5 and slots.theme and all(context.names.shapes.slender(n) for n in theme.names):
+        return "length"
     if info.get("stretch"):
         raise TranslationError(
             "stretch or squeeze which way? say vertically, horizontally, or in height or width"

@@ -10,7 +10,7 @@ from iconjax.language.clauses import Amount, Clause
 from iconjax.language.context import Context
 from iconjax.language.frames import Relation, Slots
 from iconjax.language.names import Reference
-from iconjax.language.reading import TURNED, followed, listed
+from iconjax.language.reading import FOLLOWING, TURNED, followed, listed
 
 
 def turns(slots: Slots, kinds: set[str]) -> bool:
@@ -45,7 +45,10 @@ def rotate(context: Context, slots: Slots, theme: Reference) -> Iterator[Clause]
     elif "upside_down" in slots.marks:
         yield Clause("rotate", names, Amount(180.0, "deg"), direction="cw")
     elif orient and (amount is None or amount.unit != "deg"):
-        yield Clause("turn" if followed(slots) else "orient", names, relation=orient)
+        if theme.side is not None:
+            raise TranslationError(f"how {listed(names)} lies when its {theme.side} is {orient} is not clear")
+        manner = frozenset({"follow"}) if slots.connector in FOLLOWING else frozenset()
+        yield Clause("turn" if followed(slots) else "orient", names, relation=orient, manner=manner)
         slots.verbs = [v for v in slots.verbs if v.value != "move"]
     else:
         yield _by_angle(slots, names, amount, direction)

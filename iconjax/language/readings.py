@@ -7,14 +7,17 @@ from collections.abc import Iterator
 from iconjax.errors import TranslationError
 from iconjax.language.clauses import Clause
 from iconjax.language.context import Context
-from iconjax.language.frames import Change, Shift, Slots
+from iconjax.language.frames import Change, Relation, Shift, Slots
 from iconjax.language.names import Reference
 from iconjax.language.read_keeps import keep, negated
-from iconjax.language.read_pairs import align, gap, swap
+from iconjax.language.read_pairs import align, follow, gap, swap
 from iconjax.language.read_places import join, move
 from iconjax.language.read_sizes import scale
 from iconjax.language.read_turns import rotate, sense_of, turns
 from iconjax.language.reading import FOLLOWING, TURNED, listed
+
+TELLING = ("on", "inside", "above", "below", "left_of", "right_of", "beside", "touch")
+"""Relations that may only tell which thing is meant."""
 
 
 class Reader:
@@ -39,12 +42,18 @@ class Reader:
                 return []
             raise TranslationError('"everything" is not a thing of the picture; name what should change')
         context = self.context
+        if len(slots.shifts) == 1 and slots.shifts[0].place and not slots.verbs and not slots.relations:
+            return [Clause("side", context.theme(()).names, direction=slots.shifts[0].direction)]
         self._inherit(slots)
         relation = slots.relations[0].kind if slots.relations else ""
         theme = context.theme(slots.theme, relation)
         clauses = list(self._clauses(slots, theme))
         if not clauses:
             raise TranslationError(f"what should happen to {listed(theme.names)} is not understood")
+        if slots.connector in ("so", "so that", "such that") and slots.theme and context.themes:
+            guessed = all(c.amount is not None and c.amount.mode == "unsaid" for c in clauses)
+            if guessed and not set(theme.names) & set(context.themes[0]):
+                clauses = [Clause("topic", theme.names)]  # what follows from the change before
         context.remember(theme.names, [c.reference for c in clauses])
         if slots.verbs:
             context.verbs = slots.verbs
@@ -68,7 +77,7 @@ class Reader:
             a is None or a.vague
             for a in (slots.amount, *(c.amount for c in slots.changes), *(s.amount for s in slots.shifts))
         )
-        if slots.follows == "by" and vague and not slots.relations:
+        if slots.follows in ("by", ":") and vague and not slots.relations and (slots.theme or slots.follows == "by"):
             yield Clause("topic", theme.names)
             return
         if slots.negated:
@@ -81,6 +90,8 @@ class Reader:
             yield gap(self.context, slots, theme)
         elif "align" in kinds and not slots.relations:
             yield align(self.context, slots, theme)
+        elif "follow" in kinds or any(r.kind == "with" for r in slots.relations):
+            yield from follow(self.context, slots, theme)
         elif kinds & {"join", "part"}:
             yield from join(self.context, slots, theme, "touch" if "join" in kinds else "outside")
         else:
@@ -158,12 +169,24 @@ class Reader:
             or slots.amount
             or slots.kinds() & {"rotate", "scale", "orient"}
         )
+        resizes = bool(slots.changes or slots.kinds() & {"rotate", "scale", "orient"})
         previous = theme.names
         for index, relation in enumerate(list(slots.relations)):
+            if relation.compared and relation.kind in TELLING and not slots.kinds() & {"move"}:
+                self._tells(slots, relation, theme)
+                continue
             if not relation.reference or (relation.kind == "around" and turns(slots, slots.kinds())):
                 continue
             target = self.context.reference(relation.reference, theme.names).names
             part_of_theme = all(any(shapes.part_of(t, n) for n in theme.names) for t in target)
+            standing = relation.kind in TELLING and resizes and not slots.kinds() & {"move"}
+            part = all(any(shapes.part_of(n, t) for t in target) for n in previous)
+            if standing and len(previous) == len(target) == 1:
+                near = relation.kind in ("on", "inside") and shapes.lies(previous[0], "touch", target[0])
+                if part or near or shapes.lies(previous[0], relation.kind, target[0]):
+                    slots.relations.remove(relation)  # "halve the post under the sign"
+                    previous = target
+                    continue
             if relation.kind == "around":
                 # "the girder hanging from it"
                 if not (len(previous) == len(target) == 1 and shapes.lies(previous[0], "touch", target[0])):
@@ -193,3 +216,14 @@ class Reader:
                         f'two places in one clause: "{previous[0]}" is not {relation.kind} "{target[0]}"'
                     )
             previous = target
+
+    def _tells(self, slots: Slots, relation: Relation, theme: Reference) -> None:
+        """Take out what only says which other thing a size is compared with: "the monitor above it"."""
+        other = self.context.reference(relation.compared, theme.names).names
+        own = all(p.pronoun and not p.owner for p in relation.reference)
+        where = theme.names if own else self.context.reference(relation.reference, theme.names).names
+        if not (len(other) == len(where) == 1) or where[0] in ("@ground", "canvas"):
+            raise TranslationError(f'the part of "{relation.kind}" in the request is unclear')
+        if not self.context.names.shapes.lies(other[0], relation.kind, where[0]):
+            raise TranslationError(f'"{other[0]}" is not {relation.kind.replace("_", " ")} "{where[0]}"')
+        slots.relations.remove(relation)

@@ -12,6 +12,7 @@ from iconjax.scene.types import Scene, Segment
 
 OBLIQUE_DEGREES = 15.0
 ELONGATED = 1.8
+SLENDER = 4.0
 ROUND = 1.1
 Box = tuple[float, float, float, float]
 
@@ -58,6 +59,11 @@ class Shapes:
         loops = tuple(loop for s in self.segments(name) for loop in s.loops)
         return bool(loops) and elongation(loops) < ROUND
 
+    def slender(self, name: str) -> bool:
+        """Whether the thing is so long that to halve it is to halve its length."""
+        loops = tuple(loop for s in self.segments(name) for loop in s.loops)
+        return bool(loops) and elongation(loops) > SLENDER
+
     def extent(self, name: str, dim: str) -> str:
         """The attribute that an everyday dimension means for this thing, e.g. "vert_len".
 
@@ -88,6 +94,11 @@ class Shapes:
             return x0 <= x <= x1 and y0 <= y <= y1
         if relation == "on":
             return gaps[0] < 0 and gaps[1] < near and self.centre(name)[1] < self.centre(other)[1]
+        if relation in ("above", "below", "left_of", "right_of"):
+            axis = 1 if relation in ("above", "below") else 0
+            sign = 1 if relation in ("above", "left_of") else -1
+            ahead = sign * (self.centre(other)[axis] - self.centre(name)[axis]) > 0
+            return ahead and gaps[axis] > -near and gaps[1 - axis] < 0
         return max(gaps) < (near if relation == "touch" else 4 * near)
 
     def axis_gap(self, a: str, b: str, axis: int) -> float:

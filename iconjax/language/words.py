@@ -29,6 +29,7 @@ def tokenise(request: str) -> list[str]:
     )
     text = re.sub(r"(?<![\w.])-(?=\d)", " minus", text)  # kept as a word of its own
     text = re.sub(r"(?<=\d)-(?=[a-z])", " ", text)
+    text = re.sub(r"(?<=[a-z.,%]) +[-\u2013] +(?=[a-z])| *\u2014 *", " ; ", text)  # a dash between clauses
     words: list[str] = []
     for match in re.finditer(
         r"\d+(?:st|nd|rd|th)\b|\d+(?:\.\d+)?|minus(?=\d)|[a-zà-öø-ÿ]+(?:-[a-zà-öø-ÿ]+)*|'s\b|[%°º×;:,.!?&#/-]",
@@ -63,7 +64,8 @@ def _one_slip(a: str, b: str) -> bool:
     if len(a) == len(b):
         different = [i for i, (x, y) in enumerate(zip(a, b, strict=True)) if x != y]
         if len(different) == 1:
-            return len(a) >= 6 and different[0] > 0
+            # another ending is another form or another word ("roller", "rolled")
+            return len(a) >= 6 and 0 < different[0] < len(a) - 2
         swapped = len(different) == 2 and different[1] == different[0] + 1
         return swapped and a[different[0]] == b[different[1]] and a[different[1]] == b[different[0]]
     long, short = (a, b) if len(a) > len(b) else (b, a)

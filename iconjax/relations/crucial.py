@@ -9,8 +9,12 @@ from itertools import combinations
 import networkx as nx
 
 from iconjax.relations.contact import Border, find_contact
-from iconjax.relations.types import Relation
+from iconjax.relations.types import Relation, Scope
 from iconjax.scene.types import Scene
+
+
+BRIDGE_REACH = 0.08
+"""Widest gap, as a share of the picture's larger side, over which a lone object belongs to the nearest one."""
 
 
 def assign_scopes(scene: Scene, relations: Sequence[Relation]) -> list[Relation]:
@@ -35,9 +39,32 @@ def assign_scopes(scene: Scene, relations: Sequence[Relation]) -> list[Relation]
     return out
 
 
-def bridge_components(scene: Scene, relations: Sequence[Relation], borders: Sequence[Border]) -> list[Relation]:
-    """"near" relations that tie the unconnected parts of each object together over the shortest gaps."""
+def bridge_objects(scene: Scene, relations: Sequence[Relation], borders: Sequence[Border]) -> list[Relation]:
+    """"near" relations that tie each object without any relation to another one to the nearest, if that is close."""
     bridges: list[Relation] = []
+    for name in scene.objects:
+        members = set(scene.members(name))
+        if any(r.scope == "inter" and ({r.a, r.b} & members) for r in [*relations, *bridges]):
+            continue
+        near = [
+            (c.gap, a, b, c)
+            for a in members
+            for b in set(range(len(scene.segments))) - members
+            if (c := find_contact(borders[a], borders[b], BRIDGE_REACH * scene.size, 0.008 * scene.size)) is not None
+        ]
+        if near:
+            gap, a, b, contact = min(near, key=lambda item: item[0])
+            bridges.append(Relation(a, b, "near", "inter", contact))
+    return bridges
+
+
+def bridge_components(scene: Scene, relations: Sequence[Relation], borders: Sequence[Border]) -> list[Relation]:
+    """"near" relations that tie the unconnected parts of each object together over the shortest gaps.
+
+    They are crucial where a part is connected to nothing else.
+    """
+    bridges: list[Relation] = []
+    firm = {i for r in relations for i in (r.a, r.b)}
     for name in scene.objects:
         members = scene.members(name)
         graph = nx.Graph()
@@ -56,6 +83,8 @@ def bridge_components(scene: Scene, relations: Sequence[Relation], borders: Sequ
             ]
             if near:
                 gap, a, b, contact = min(near, key=lambda item: item[0])
-                gaps.add_edge(p, q, weight=gap, relation=Relation(a, b, "near", "intra", contact))
+                alone = not (first & firm) or not (second & firm)
+                scope: Scope = "intra-crucial" if alone else "intra"
+                gaps.add_edge(p, q, weight=gap, relation=Relation(a, b, "near", scope, contact))
         bridges += [d["relation"] for _, _, d in nx.minimum_spanning_edges(gaps, data=True)]
     return bridges

@@ -9,7 +9,7 @@ from jaxtyping import Bool
 from scipy.ndimage import binary_fill_holes
 
 from iconjax.relations.contact import Border, find_contact
-from iconjax.relations.crucial import assign_scopes, bridge_components
+from iconjax.relations.crucial import assign_scopes, bridge_components, bridge_objects
 from iconjax.relations.types import Contact, Kind, Relation
 from iconjax.scene.types import Scene
 
@@ -40,7 +40,8 @@ def detect_relations(scene: Scene) -> tuple[Relation, ...]:
         if relation is not None:
             found.append(relation)
     found = assign_scopes(scene, found)
-    return tuple(found + bridge_components(scene, found, borders))
+    found += bridge_components(scene, found, borders)
+    return tuple(found + bridge_objects(scene, found, borders))
 
 
 def _relate(

@@ -22,7 +22,8 @@ from iconjax.search.setup import Setup, prepare
 from iconjax.search.types import ConstraintReport, RelationReport, SearchOutcome
 
 TOLERANCE_PX, TOLERANCE_DEG, TOLERANCE_RATIO = 0.01, 2.0, 0.01
-"""A constraint is satisfied within 1 % of the picture's size, 2 degrees, or 0.01 for bare numbers (contract, section 8)."""
+"""A constraint is satisfied within 1 % of the picture's size, 2 degrees, or 0.01 for bare numbers (contract,
+section 8)."""
 
 
 def search_edit(
@@ -70,7 +71,7 @@ def search_edit(
 
 @dataclass(frozen=True)
 class _Found:
-    """What either strategy finds: transforms, residuals (of the primary constraints first), states of the relations."""
+    """What either strategy finds; residuals of the primary constraints come first in `primary`."""
 
     matrices: Float[np.ndarray, "n 6"]
     primary: Float[np.ndarray, " c"]
@@ -96,7 +97,8 @@ def report_constraints(setup: Setup, primary: Float[np.ndarray, " c"]) -> tuple[
             continue
         parts = [primary[j] for j, owner in enumerate(setup.compiled.owner) if owner == k]
         violation = float(np.linalg.norm(parts)) / pixels_per_unit(unit, size)
-        out.append(ConstraintReport(to_text(call), "primary", violation, unit.symbol, violation <= _tolerance(unit, size)))
+        holds = violation <= _tolerance(unit, size)
+        out.append(ConstraintReport(to_text(call), "primary", violation, unit.symbol, holds))
     return tuple(out)
 
 

@@ -145,8 +145,8 @@ def _relation_arrays(
         if body[r.a] == body[r.b] or status == "N" or setting.hinged(r):
             continue
         share = 1 / setting.companions(r)
-        hold[e] = share * setting.forces.hold(r)
-        ends[e] = 0.0 if _hinged(setting, body, r, sizes.bodies) else share * setting.forces.ends(r)
+        hold[e] = share * setting.forces.hold(r, setting.size)
+        ends[e] = 0.0 if _hinged(setting, body, r, sizes.bodies) else share * setting.forces.ends(r, setting.size)
         slide[e] = status == "WK"
     return {"hold": hold, "ends": ends, "slide": slide}
 

@@ -115,6 +115,9 @@ class CoherentSearch:
         jobs: list[tuple[State, Float[np.ndarray, "n 5"]]] = []
         room = self.config.batch
         for rank, parent in enumerate(parents):
+            # A child begins turned as its parent is, but otherwise afresh: freed of a relation, a solve that begins
+            # where the relation held it tends to stay there.
+            start = parent.z * np.array([0.0, 0.0, 1.0, 0.0, 0.0])
             share = room if rank == len(parents) - 1 else max(room // 2, 1)
             found = [s for s in flips(self.setup.setting, parent.state, parent.judgement) if s.key not in self.seen]
             if not self.config.relation_search:
@@ -123,7 +126,7 @@ class CoherentSearch:
                 found = [s for s in found if s.modes == parent.state.modes]
             for s in found[:share]:
                 self.seen.add(s.key)
-                jobs.append((s, parent.z))
+                jobs.append((s, start))
             room -= min(share, len(found))
             if room <= 0:
                 break

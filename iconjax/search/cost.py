@@ -11,7 +11,7 @@ from jaxtyping import Float
 from iconjax.search.candidate import Setting
 from iconjax.search.shapes import Shapes
 from iconjax.search.state import State, scale_kind
-from iconjax.search.weights import Costs
+from iconjax.search.weights import Costs, closeness
 from iconjax.relations.types import Relation
 from iconjax.search.facts import Mirror
 
@@ -132,7 +132,8 @@ class Judge:
             return "F" if motion.shift[r.a] > STILL_PX * self.unit else "ST", 0.0, ""
         if r.kind == "near" and self.asked[r.a] and self.asked[r.b]:
             return "N", 0.0, ""
-        along, across = (x / self.unit for x in self.shapes.slip(r, matrices, motion.turn))
+        ends = self.costs.bearing * 0.5 if r.scope == "inter" and self._bears(r, motion) else 0.5
+        along, across = (x / self.unit for x in self.shapes.slip(r, matrices, motion.turn, ends))
         slip = max(along, across)
         kind = "near" if r.kind == "near" else "inside" if r.kind == "inside" else r.scope.replace("intra-crucial", "crucial")
         if slip < 1.0:
@@ -145,19 +146,28 @@ class Judge:
         slide += self.costs.pulled[kind] * min(1.0, across / self.costs.pull_scale)
         if r.scope == "inter":
             slide *= 1 + self.costs.carrier * self._carried(r, motion)
-            slide *= self.costs.bearing if self._bears(r, motion) else 1.0
+        if {"rotate"} in (self.asked[r.a], self.asked[r.b]):
+            slide *= self.costs.pivot  # what is to turn and nothing else does not wander off
         if self.setting.hinged(r):
             slide *= self.costs.bearing
         # A broad contact, along much of both outlines, binds the two more than a touch in passing.
         slide *= 1 + self.costs.broad * max(0.0, min(r.contact.share, r.contact.share_b) - 0.2)
-        slide = min(slide, self.costs.broken[kind])
-        cost = slide + (self.costs.broken[kind] - slide) * loss if loss > 0 else slide
+        broken = self.costs.broken[kind]
+        if kind == "near":
+            close = closeness(r, self.setting.size)
+            more = self.costs.broken["intra"] / self.costs.broken["near"]
+            slide, broken = slide * (1 + (more - 1) * close), broken * (1 + (more - 1) * close)
+        slide = min(slide, broken)
+        cost = slide + (broken - slide) * loss if loss > 0 else slide
         return ("N" if loss > 0.5 else "WK" if slip > 4.0 else "ST"), cost, "broken" if loss > 0.5 else "slid"
 
     def _carried(self, r: Relation, motion: Motion) -> float:
         """How much larger the side that moves is than the one that stays behind, 0..1: the larger carries the smaller
         along, while a small thing may well slide along a large one."""
-        if self.setting.facts.grounded[r.b if motion.shift[r.a] >= motion.shift[r.b] else r.a]:
+        behind = r.b if motion.shift[r.a] >= motion.shift[r.b] else r.a
+        if self.setting.facts.hung[behind]:
+            return 1.0
+        if self.setting.facts.grounded[behind]:
             return 0.0  # what stands on the ground carries, and is not carried
         areas = [self.piece_area[self.setting.pieces[i]] for i in (r.a, r.b)]
         moving, staying = areas if motion.shift[r.a] >= motion.shift[r.b] else areas[::-1]
@@ -198,6 +208,7 @@ class Judge:
                 add("moved", share * (0.5 if along else 1.0) * min(1.0, motion.shift[i] / (20 * self.unit)))
                 if abs(motion.turn[i]) > 0.3:
                     weight = costs.turned * (2 * float(facts.area[i]) if along else 1.0)
+                    weight += costs.hung if facts.hung[i] else 0.0
                     add("turned", weight * min(1.0, abs(motion.turn[i]) / 10))
                 self._distorted(i, motion, add)
                 if facts.grounded[i]:
@@ -233,6 +244,9 @@ class Judge:
         for first, second in self.setting.intent.hinged:
             if abs(motion.turn[min(first)] - motion.turn[min(second)]) < 0.5:
                 add("idle", self.costs.idle_specifier)
+        asked = [i for i, kinds in self.asked.items() if kinds]
+        if asked:
+            add("amount", self.costs.amount * float(motion.shift[asked].mean()) / self.unit)
         turning = [t.members for t in self.setting.intent.things if t.kinds == {"rotate"}]
         for first, second in combinations(turning, 2):
             apart = abs(abs(motion.turn[first[0]]) - abs(motion.turn[second[0]]))

@@ -17,6 +17,8 @@ ALIGNED = 0.005
 GROUND = 0.03
 """A segment stands on the ground when its lower edge is within this share of the picture's lowest one."""
 
+LODGED = 0.7
+"""Share of its outline along the parts of one other object from which on a small segment is a detail of that object."""
 FLAT = 0.3
 """Share of a segment's width that its lowest slice has at least where it stands on it."""
 SYMMETRIC = 0.9
@@ -31,7 +33,7 @@ class Alignment:
         a, b: segments.
         feature: 0..5 for min x, centre x, max x, min y, centre y, max y.
         reason: "touching", "siblings", "ground", "support" for what is put on top of something (centred within slack),
-            "overhang" for what does not stick out beyond what it rests on.
+            "overhang" for what does not stick out beyond what it rests on, "floor" for what does not sink into the ground.
         low, high: how much less or more than before the difference of the two features may be, px.
         wanted: difference of the two features to aim at where it is not the one before, px.
     """
@@ -85,6 +87,7 @@ class Facts:
         grounded: segments that stand on the ground.
         alignments: features that coincide.
         mirrors: pairs of segments that mirror each other about a third.
+        hung: segments that hang from another object by their top: gravity keeps them upright.
     """
 
     features: Float[np.ndarray, "n 6"]
@@ -96,6 +99,7 @@ class Facts:
     grounded: Bool[np.ndarray, " n"]
     alignments: tuple[Alignment, ...]
     mirrors: tuple[Mirror, ...]
+    hung: Bool[np.ndarray, " n"]
 
 
 def gather_facts(scene: Scene, relations: Sequence[Relation]) -> Facts:
@@ -119,7 +123,27 @@ def gather_facts(scene: Scene, relations: Sequence[Relation]) -> Facts:
         grounded=grounded,
         alignments=_alignments(scene, relations, features, grounded),
         mirrors=_mirrors(scene, relations, features),
+        hung=_hung(scene, relations, features),
     )
+
+
+def _hung(
+    scene: Scene, relations: Sequence[Relation], features: Float[np.ndarray, "n 6"]
+) -> Bool[np.ndarray, " n"]:
+    hung = np.zeros(len(features), bool)
+    for name in scene.objects:
+        members = list(scene.members(name))
+        outside = [r for r in relations if r.scope == "inter" and r.kind == "overlap" and (r.a in members) != (r.b in members)]
+        if len(outside) != 1:
+            continue
+        contact = outside[0].contact
+        x, y = contact.middle.mean(0)
+        low, high = features[members][:, [0, 3]].min(0), features[members][:, [2, 5]].max(0)
+        width, height = high - low
+        at_top = y <= low[1] + 0.2 * height
+        below = abs(x - (low[0] + high[0]) / 2) <= 0.2 * width
+        hung[members] = at_top and below and contact.length <= 0.5 * width
+    return hung
 
 
 def _mirrors(
@@ -185,6 +209,22 @@ def _flat(segment: Segment) -> bool:
     return bool(np.ptp(slice_) + 1 >= FLAT * (np.ptp(cols) + 1))
 
 
+def _lodged(scene: Scene, relations: Sequence[Relation]) -> dict[int, int]:
+    """Small segments most of whose outline lies along several parts of one object, with the part they share most with."""
+    along: dict[tuple[int, str], list[tuple[float, int]]] = {}
+    for r in relations:
+        if r.kind != "overlap" or r.contact.gap > 2:
+            continue
+        for small, large, share in ((r.a, r.b, r.contact.share), (r.b, r.a, r.contact.share_b)):
+            if scene.segments[small].area < 0.5 * scene.segments[large].area:
+                along.setdefault((small, scene.segments[large].object), []).append((share, large))
+    return {
+        small: max(parts)[1]
+        for (small, object_name), parts in along.items()
+        if len(parts) > 1 and sum(s for s, _ in parts) >= LODGED and scene.segments[small].object != object_name
+    }
+
+
 def _polygon_area(loop: Float[np.ndarray, "v 2"]) -> float:
     x, y = loop[:, 0], loop[:, 1]
     return float(abs(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y)) / 2)
@@ -197,6 +237,9 @@ def _hosts(scene: Scene, relations: Sequence[Relation]) -> tuple[int | None, ...
             best = host[r.a]
             if best is None or scene.segments[r.b].area < scene.segments[best].area:
                 host[r.a] = r.b
+    for small, large in _lodged(scene, relations).items():
+        if host[small] is None:
+            host[small] = large
     return tuple(host)
 
 
@@ -205,6 +248,10 @@ def _alignments(
 ) -> tuple[Alignment, ...]:
     limit = ALIGNED * scene.size
     found = [Alignment(int(i), None, 5, "ground") for i in np.flatnonzero(grounded)]
+    if grounded.any():
+        floor = features[:, 5].max()
+        low = 8.0 * scene.size
+        found += [Alignment(i, None, 5, "floor", low, float(floor - f[5])) for i, f in enumerate(features)]
     linked = {(r.a, r.b) for r in relations if r.kind != "near"}
     for a, b in sorted(linked):
         for f in np.flatnonzero(np.abs(features[a] - features[b]) <= limit):

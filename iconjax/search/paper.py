@@ -1,4 +1,4 @@
-"""The seed paper's search as it stands: a pass over relations, then one over motions, by flipping and solving.
+"""The paper's search as it stands: a pass over relations, then one over motions, by flipping and solving.
 
 How we read its algorithm is written down in `docs/solvers.md`.
 """
@@ -33,9 +33,9 @@ from iconjax.solve.methods import FOR_MEAN_VIOLATION, method
 
 ENOUGH = 0.02
 """A mean violation of this many pixels (at 512 x 512) is low enough: scores below it are equal."""
-COMBINATIONS = 32
+COMBINATIONS = 24
 """Most subsets of one front that are tried."""
-BATCH = 8
+BATCH = 4
 
 
 @dataclass(frozen=True)
@@ -87,11 +87,11 @@ class PaperSearch:
         return state, self.solved[state]
 
     def _measure(self) -> None:
-        """How far each constraint is violated in the unedited picture: with nothing free, a solve only measures."""
+        """Measure the unedited picture: with nothing free, a solve does no more."""
         n = len(self.setup.scene.segments)
         still = PaperState(("N",) * n, ("N",) * len(self.relations))
         nothing = build_choice(still, self.setup, np.zeros(self.program.violations.allowed.shape))
-        self.program = self.program.allowing(self.engine.solve([nothing]).primary[0])
+        self.program = self.program.allowing(np.asarray(self.engine.solve([nothing]).primary[0]))
         self.engine.problem = self.program.violations
 
     def _score(self, state: PaperState) -> float:
@@ -105,8 +105,9 @@ class PaperSearch:
         choices = [build_choice(s, self.setup, self.program.active(s.relations)) for s in fresh]
         found = self.engine.solve(choices)
         n = len(self.setup.scene.segments)
+        matrices, residuals = np.asarray(found.matrices), np.asarray(found.primary)
         for k, state in enumerate(fresh):
-            self.solved[state] = Solved(float(found.loss[k]), found.matrices[k, :n], found.primary[k])
+            self.solved[state] = Solved(float(found.loss[k]), matrices[k, :n], residuals[k])
         self.round += 1
 
     def _relation_pass(self, best: PaperState) -> PaperState:
@@ -123,8 +124,8 @@ class PaperSearch:
         chosen, count = subsets(front, COMBINATIONS)
         if count > len(chosen):
             self.notes.append(
-                f"relation search: a front of {len(front)} relations has {count} subsets; the {len(chosen) - 1} smallest "
-                "and the whole front were tried"
+                f"relation search: a front of {len(front)} relations has {count} subsets; "
+                f"the {len(chosen) - 1} smallest and the whole front were tried"
             )
         k = 0
         while k < len(chosen) and self._score(best) > self.enough:
@@ -149,13 +150,16 @@ class PaperSearch:
                 return k + 1
         return len(chosen)
 
-    def _keep_falling(self, best: PaperState, subject: str, flips: Sequence[tuple[str, PaperState]]) -> PaperState:
+    def _keep_falling(
+        self, best: PaperState, subject: str, flips: Sequence[tuple[str, PaperState]]
+    ) -> PaperState:
         """Keep each flip with which the score falls."""
         for words, state in flips:
             if state.relations == best.relations:
                 continue
             falls = self._score(state) < self._score(best)
-            self._record(f"{subject}: {words}", state, falls, "the score falls" if falls else "the score does not fall")
+            reason = "the score falls" if falls else "the score does not fall"
+            self._record(f"{subject}: {words}", state, falls, reason)
             best = state if falls else best
         return best
 
@@ -171,7 +175,7 @@ class PaperSearch:
         return best
 
     def _simplify(self, best: PaperState, node: int) -> PaperState:
-        """Keep each motion state with which the score falls, or with which it does not rise and that is simpler."""
+        """Keep a motion state with which the score falls, or a simpler one with which it does not rise."""
         flips = flip_motion(best, node)
         self._solve([s for _, s in flips])
         name = self.setup.scene.names[node]
@@ -181,7 +185,9 @@ class PaperSearch:
             falls = self._score(state) < self._score(best)
             simpler = MOTIONS.index(motion) > MOTIONS.index(best.motion[node])
             kept = falls or (simpler and self._score(state) <= self._score(best))
-            reason = "the score falls" if falls else "simpler, and the score does not rise" if kept else "the score rises"
+            reason = (
+                "the score falls" if falls else "simpler, and the score does not rise" if kept else "no gain"
+            )
             self._record(f"{name}: {motion}", state, kept, reason)
             best = state if kept else best
         return best
@@ -194,9 +200,11 @@ class PaperSearch:
             if state.relations[e] != "ST"
         )
         active = self.program.active(state.relations)
-        excess = np.maximum(self.program.sizes(solved.residuals) - self.program.violations.allowed, 0.0) * active
+        excess = active * self.program.excess(solved.residuals)
         count = max(float(active.sum()), 1.0)
         first = float(excess[: self.program.primary].sum()) / count
         terms = {"primary": first, "secondary": float(excess.sum()) / count - first}
         motion = dict(zip(names, state.motion, strict=True))
-        self.entries.append(TraceEntry(self.round - 1, origin, motion, loose, solved.score, terms, kept, reason))
+        self.entries.append(
+            TraceEntry(self.round - 1, origin, motion, loose, solved.score, terms, kept, reason)
+        )

@@ -1,4 +1,4 @@
-"""The paper's secondary constraints as rows of the same program as the primary ones, to be switched by a mask."""
+"""The paper's secondary constraints as rows of the same program as the primary ones, switched by a mask."""
 
 from __future__ import annotations
 
@@ -20,9 +20,16 @@ from iconjax.solve.regions import index_array
 from iconjax.solve.table import OperatorTable, operator_table
 from iconjax.solve.violation import Violations
 
-TIERS = ((16, 16, 8, 16), (32, 32, 16, 32), (48, 48, 16, 48), (64, 64, 24, 64), (96, 96, 32, 96), (160, 160, 48, 160))
-"""Static sizes of a program with its secondary constraints: leaves, steps, regions, residuals. Beyond the last, the
-sizes of `solve.compile` are kept."""
+TIERS = (
+    (16, 16, 8, 16),
+    (32, 32, 16, 32),
+    (48, 48, 16, 48),
+    (64, 64, 24, 64),
+    (96, 96, 32, 96),
+    (160, 160, 48, 160),
+)
+"""Static sizes of a program with its secondary constraints: leaves, steps, regions, residuals. Beyond the
+last, the sizes of `solve.compile` are kept."""
 
 
 @dataclass(frozen=True)
@@ -59,16 +66,21 @@ class PaperProgram:
         owner = np.concatenate([self.violations.owner, np.repeat(np.arange(rows - edges, rows), 2)])
         return np.sqrt(np.bincount(owner, residuals**2, rows)[:rows])
 
+    def excess(self, residuals: Float[np.ndarray, " c"]) -> Float[np.ndarray, " g"]:
+        """The violation of every constraint beyond what is allowed, px."""
+        beyond = self.sizes(residuals) - np.asarray(self.violations.allowed)
+        return np.where(beyond > 0, beyond, 0.0)
+
     def allowing(self, residuals: Float[np.ndarray, " c"]) -> PaperProgram:
-        """The program in which secondary constraints may be violated as far as in the unedited picture, which has
-        `residuals`: connected parts may have a thin white gap between them."""
-        allowed = self.sizes(residuals)
+        """The program in which secondary constraints may be violated as far as in the unedited picture, which
+        has `residuals`: connected parts may have a thin white gap between them."""
+        allowed: Any = self.sizes(residuals)
         allowed[: self.primary] = 0.0
         return replace(self, violations=self.violations._replace(allowed=allowed))
 
 
 def build_program(setup: Setup, registry: Registry) -> PaperProgram:
-    """Compile the primary program of `setup` together with the function of each relation of the paper's kinds.
+    """Compile the program of `setup` together with the function of each relation of the paper's kinds.
 
     "near" relations are beyond the paper and left out.
     """
@@ -76,7 +88,7 @@ def build_program(setup: Setup, registry: Registry) -> PaperProgram:
     calls, units = [c for c, _ in constraints], [u for _, u in constraints]
     primary, relations, names = len(calls), setup.setting.relations, setup.scene.names
     edges = [e for e, r in enumerate(relations) if r.kind != "near"]
-    calls += [Call(relations[e].kind, tuple(SegmentRef(names[i]) for i in (relations[e].a, relations[e].b))) for e in edges]
+    calls += [_weak(relations[e], names) for e in edges]
     units += [Unit.LENGTH] * len(edges)
     table = operator_table(registry)
     compiled = compile_program(
@@ -86,13 +98,18 @@ def build_program(setup: Setup, registry: Registry) -> PaperProgram:
     )  # fmt: skip
     code, regions = trim(compiled)
     outs, meetings = code.out.shape[0], setup.sizes.relations
-    violations = Violations(
-        code, regions, index_array(compiled.owner, outs, outs + meetings),
+    arrays: dict[str, Any] = {
+        "owner": index_array(compiled.owner, outs, outs + meetings),
         **_meetings(relations, meetings, setup.sizes.segments),
-        allowed=np.zeros(outs + meetings), canvas=setup.problem.canvas,
-    )  # fmt: skip
+        "allowed": np.zeros(outs + meetings),
+    }
+    violations = Violations(code, regions, canvas=setup.problem.canvas, **arrays)
     weak, strong = {e: primary + k for k, e in enumerate(edges)}, {e: outs + e for e in edges}
     return PaperProgram(violations, table, compiled.wide, primary, weak, strong)
+
+
+def _weak(relation: Relation, names: Sequence[str]) -> Call:
+    return Call(relation.kind, (SegmentRef(names[relation.a]), SegmentRef(names[relation.b])))
 
 
 def _meetings(relations: Sequence[Relation], rows: int, still: int) -> dict[str, Any]:
@@ -100,28 +117,34 @@ def _meetings(relations: Sequence[Relation], rows: int, still: int) -> dict[str,
     meeting = np.zeros((rows, 2))
     for e, r in enumerate(relations):
         meeting[e] = r.contact.middle.mean(0)
-    a, b = index_array([r.a for r in relations], rows, still), index_array([r.b for r in relations], rows, still)
-    return {"a": a, "b": b, "meeting": meeting}
+    a, b = [r.a for r in relations], [r.b for r in relations]
+    return {"a": index_array(a, rows, still), "b": index_array(b, rows, still), "meeting": meeting}
 
 
 def trim(compiled: CompiledProgram) -> tuple[Code, Regions]:
     """The program in smaller arrays: one residual more does not have to double all of them."""
     code, regions = compiled.code, compiled.regions
-    used = (int(code.leaves), int(code.steps), int(np.max([code.region_a, code.region_b])) + 1, len(compiled.owner))
-    meets = int(np.max([regions.first, regions.second])) + 1
-    used = (used[0], used[1], max(used[2], meets), used[3])
+    named = int(
+        np.max(
+            [np.append(x, -1).max() for x in (code.region_a, code.region_b, regions.first, regions.second)]
+        )
+    )
+    used = (int(code.leaves), int(code.steps), named + 1, len(compiled.owner))
     tier = next((t for t in TIERS if all(u <= size for u, size in zip(used, t, strict=True))), None)
     whole = code.leaf_op.shape[0]
     if tier is None or tier[0] >= whole:
         return code, regions
     leaves, steps, rows, outs = tier
 
-    def register(numbers: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
+    def register(numbers: Any) -> Any:
         return np.where(numbers >= whole, numbers - whole + leaves, numbers)
 
-    smaller = Code(
-        code.leaf_op[:leaves], code.region_a[:leaves], code.region_b[:leaves], code.extra[:leaves], code.leaves,
-        code.step_op[:steps], register(code.value_a[:steps]), register(code.value_b[:steps]), code.literal[:steps],
-        code.steps, register(code.out[:outs]), code.scale[:outs],
-    )  # fmt: skip
+    smaller = code._replace(
+        **{name: getattr(code, name)[:leaves] for name in ("leaf_op", "region_a", "region_b", "extra")},
+        **{name: getattr(code, name)[:steps] for name in ("step_op", "literal")},
+        value_a=register(code.value_a[:steps]),
+        value_b=register(code.value_b[:steps]),
+        out=register(code.out[:outs]),
+        scale=code.scale[:outs],
+    )
     return smaller, Regions(*(x[:rows] for x in regions))

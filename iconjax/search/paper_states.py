@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations, islice
-from math import comb
+from typing import Any
 
 import numpy as np
 from jaxtyping import Float
@@ -19,10 +19,16 @@ from iconjax.solve.violation import Choice
 
 MOTIONS = ("TRS", "TR", "TS", "T", "N")
 """Motion states in the paper's order: the later, the simpler."""
-FREEDOM = {"N": (0, 0, 0, 0, 0), "T": (1, 1, 0, 0, 0), "TR": (1, 1, 1, 0, 0), "TS": (1, 1, 0, 1, 1), "TRS": (1, 1, 1, 1, 1)}
+FREEDOM = {
+    "N": [0, 0, 0, 0, 0],
+    "T": [1, 1, 0, 0, 0],
+    "TR": [1, 1, 1, 0, 0],
+    "TS": [1, 1, 0, 1, 1],
+    "TRS": [1] * 5,
+}
 LEVER = 0.1
-"""Least lever of a body's rotation and scaling as a share of the picture: the first step of 10 px turns by a fifth of a
-radian at most."""
+"""Least lever of a body's rotation and scaling as a share of the picture: the first step of 10 px turns by a
+fifth of a radian at most."""
 
 
 @dataclass(frozen=True)
@@ -48,8 +54,8 @@ class PaperState:
 
 
 def initial_state(intent: Intent, relations: Sequence[Relation], segments: int) -> PaperState:
-    """Every relation strong; named segments free in the ways the program names, those told to stay fixed, all others
-    free in every way. "near" relations are beyond the paper: they do not exist."""
+    """Every relation strong; named segments free in the ways the program names, those told to stay fixed, all
+    others free in every way. "near" relations are beyond the paper: they do not exist."""
     motion = []
     for i in range(segments):
         kinds = {kind for thing in intent.things_of(i) for kind in thing.kinds}
@@ -64,8 +70,11 @@ def primary_nodes(setup: Setup) -> list[int]:
     return list(dict.fromkeys(i for n in names for i in setup.scene.members(n)))
 
 
-def flip_relations(state: PaperState, chosen: Sequence[int], relations: Sequence[Relation]) -> list[tuple[str, PaperState]]:
+def flip_relations(
+    state: PaperState, chosen: Sequence[int], relations: Sequence[Relation]
+) -> list[tuple[str, PaperState]]:
     """The paper's four steps on the chosen edges, each on top of the one before, with a word for each."""
+
     def of(scope: str, current: str) -> list[int]:
         return [e for e in chosen if relations[e].scope == scope and state.relations[e] == current]
 
@@ -87,8 +96,8 @@ def flip_motion(state: PaperState, node: int) -> list[tuple[str, PaperState]]:
 
 
 def subsets(front: Sequence[int], most: int) -> tuple[list[tuple[int, ...]], int]:
-    """Combinations of a front's edges, the smaller first, at most `most` of them (the whole front among these); and how
-    many there are."""
+    """Combinations of a front's edges, the smaller first, and how many there are. At most `most` are given,
+    the whole front among them."""
     count = 2 ** len(front)
     ordered = (c for size in range(len(front) + 1) for c in combinations(front, size))
     chosen = list(islice(ordered, most))
@@ -97,33 +106,43 @@ def subsets(front: Sequence[int], most: int) -> tuple[list[tuple[int, ...]], int
     return chosen, count
 
 
-def next_edges(front: Iterable[int], seen: set[int], relations: Sequence[Relation], edges: Sequence[int]) -> list[int]:
+def next_edges(
+    front: Iterable[int], seen: set[int], relations: Sequence[Relation], edges: Sequence[int]
+) -> list[int]:
     """Edges not seen yet that share a segment with the front."""
     nodes = {n for e in front for n in (relations[e].a, relations[e].b)}
     return [e for e in edges if e not in seen and {relations[e].a, relations[e].b} & nodes]
 
 
-def next_nodes(front: Iterable[int], seen: set[int], relations: Sequence[Relation], edges: Sequence[int]) -> list[int]:
+def next_nodes(
+    front: Iterable[int], seen: set[int], relations: Sequence[Relation], edges: Sequence[int]
+) -> list[int]:
     """Segments not seen yet that are related to one of the front."""
     some = set(front)
-    near = [n for e in edges for n in (relations[e].a, relations[e].b) if some & {relations[e].a, relations[e].b}]
+    near = [
+        n for e in edges for n in (relations[e].a, relations[e].b) if some & {relations[e].a, relations[e].b}
+    ]
     return [n for n in dict.fromkeys(near) if n not in seen]
 
 
-def build_bodies(motion: Sequence[str], features: Float[np.ndarray, "n 6"], size: float, count: int) -> Bodies:
-    """Each segment as a body of its own, with its motion state as a mask; scaling is along the picture's axes."""
+def build_bodies(
+    motion: Sequence[str], features: Float[np.ndarray, "n 6"], size: float, count: int
+) -> Bodies:
+    """Each segment as a body of its own, its motion state as a mask; scaling is along the picture's axes."""
     n = len(motion)
     centre, radius, free = np.zeros((count, 2)), np.ones(count), np.zeros((count, 5))
     centre[:n] = features[:, [1, 4]]
     extent = features[:, [2, 5]] - features[:, [0, 3]]
     radius[:n] = np.maximum(np.linalg.norm(extent, axis=1) / 2, LEVER * size)
     free[:n] = [FREEDOM[m] for m in motion]
-    zero = np.zeros((count, 5))
-    return Bodies(centre, np.zeros(count), radius, free, np.zeros(count), zero, zero, zero)
+    zero, flat = np.zeros((count, 5)), np.zeros(count)
+    arrays: list[Any] = [centre, flat, radius, free, flat, zero, zero, zero]
+    return Bodies(*arrays)
 
 
 def build_choice(state: PaperState, setup: Setup, active: Float[np.ndarray, " g"]) -> Choice:
     """The arrays for a state."""
     count = setup.sizes.segments
-    facts = setup.setting.facts
-    return Choice(np.arange(count), build_bodies(state.motion, facts.features, setup.setting.size, count), active)
+    bodies = build_bodies(state.motion, setup.setting.facts.features, setup.setting.size, count)
+    arrays: list[Any] = [np.arange(count), bodies, active]
+    return Choice(*arrays)

@@ -115,7 +115,9 @@ def _supports(facts: Facts, intent: Intent) -> list[Alignment]:
         lowest = max(above, key=lambda i: facts.features[i, 5])
         top = min(below, key=lambda i: facts.features[i, 3])
         width = float(facts.features[top, 2] - facts.features[top, 0])
-        out.append(Alignment(lowest, top, 1, "support", 0.1 * width, 0.1 * width, 0.0))
+        off = abs(float(facts.features[lowest, 1] - facts.features[top, 1]))
+        slack = off if off < 0.45 * width else 0.1 * width  # what is above it already need not be centred
+        out.append(Alignment(lowest, top, 1, "support", slack, slack, 0.0))
     return out
 
 

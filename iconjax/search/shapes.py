@@ -46,10 +46,10 @@ class Shapes:
         return np.stack([x0, (x0 + x1) / 2, x1, y0, (y0 + y1) / 2, y1], 1)
 
     def slip(
-        self, r: Relation, matrices: Float[np.ndarray, "n 6"], turn: Float[np.ndarray, " n"]
+        self, r: Relation, matrices: Float[np.ndarray, "n 6"], turn: Float[np.ndarray, " n"], ends: float = 0.5
     ) -> tuple[float, float]:
         """How far the two sides of a relation's contact have come apart along and across it, px: the worse of its
-        middle and half of its ends."""
+        middle and, counted by `ends`, of its ends."""
         angle = np.radians((turn[r.a] + turn[r.b]) / 2)
         rotation = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
         pairs = np.stack([r.contact.middle, r.contact.first, r.contact.second])
@@ -58,7 +58,7 @@ class Shapes:
         normal = rotation @ r.contact.normal
         across = np.abs(apart @ normal)
         along = np.abs(apart @ np.array([-normal[1], normal[0]]))
-        return float(max(along[0], 0.5 * along[1:].max())), float(max(across[0], 0.5 * across[1:].max()))
+        return float(max(along[0], ends * along[1:].max())), float(max(across[0], ends * across[1:].max()))
 
     def loss(self, r: Relation, matrices: Float[np.ndarray, "n 6"]) -> float:
         """How far a relation is lost, from 0 (still holds) to 1 (gone)."""

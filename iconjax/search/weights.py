@@ -14,6 +14,14 @@ from jaxtyping import Float
 from iconjax.relations.types import Relation
 
 
+def closeness(r: Relation, size: float) -> float:
+    """How much parts that only lie near each other belong together: 1 across a small gap, 0 across a wide one, or where
+    both are connected to something else."""
+    if r.scope != "intra-crucial":
+        return 0.0
+    return float(np.clip((0.12 - r.contact.gap / size) / 0.04, 0.0, 1.0))
+
+
 @dataclass(frozen=True)
 class Forces:
     """Pulls inside one solve (weight of an absolute residual, per pixel).
@@ -28,6 +36,7 @@ class Forces:
         idle: unasked motion of a part: translation, rotation, scaling.
         inertia: weight of half the squared parameter of what was asked to move.
         shift: shifting what is asked to turn or to change size, but not to move.
+        stray: the same absolutely, so that things move straight along an axis where that serves.
         spin: shifting a disc that is asked to turn, and nothing else.
     """
 
@@ -39,30 +48,31 @@ class Forces:
     middle: float = 0.34
     end: float = 0.33
     align: Mapping[str, float] = field(
-        default_factory=lambda: {"touching": 20.0, "siblings": 2.0, "ground": 4.0, "support": 6.0, "overhang": 20.0}
+        default_factory=lambda: {"touching": 20.0, "siblings": 2.0, "ground": 4.0, "support": 6.0, "overhang": 20.0, "floor": 4.0}
     )
     asked_ground: float = 0.2
     canvas: float = 30.0
     idle: tuple[float, float, float] = (0.2, 0.4, 0.8)
-    inertia: float = 1e-3
+    inertia: float = 3e-4
+    stray: float = 0.03
     spin: float = 60.0
     shift: float = 0.25
 
-    def hold(self, r: Relation) -> float:
-        """Force that holds the meeting point of a relation."""
-        return self.middle * self.strength(r)
+    def hold(self, r: Relation, size: float) -> float:
+        """Force that holds the meeting point of a relation; `size` is that of the picture."""
+        return self.middle * self.strength(r, size)
 
-    def strength(self, r: Relation) -> float:
+    def strength(self, r: Relation, size: float) -> float:
         """Force that holds a relation."""
         if r.kind == "near":
-            return self.near
+            return self.near + (self.intra - self.near) * closeness(r, size)
         if r.kind == "inside":
             return self.inside
         return {"intra-crucial": self.crucial, "intra": self.intra, "inter": self.inter}[r.scope]
 
-    def ends(self, r: Relation) -> float:
+    def ends(self, r: Relation, size: float) -> float:
         """Force that holds each end of a contact."""
-        return self.end * self.strength(r) * (0.2 if r.kind == "near" else 1.0)
+        return self.end * self.strength(r, size) * (0.2 if r.kind == "near" else 1.0)
 
     def body(self, asked: Set[str], area: float, spins: bool) -> tuple[Float[np.ndarray, "5"], Float[np.ndarray, "5"]]:
         """Inertia and sparsity of a body, given the kinds of motion asked of it and its share of the area.
@@ -72,7 +82,7 @@ class Forces:
         move, turn, scale = (w * (1 + 4 * area) for w in self.idle)
         sparsity = np.array([move, move, turn, scale, scale])
         if asked:  # whatever turns or changes size may have to shift for it
-            sparsity[:2] = self.spin if spins else 0.0 if "translate" in asked else self.shift
+            sparsity[:2] = self.spin if spins else self.stray if "translate" in asked else self.shift
         if "rotate" in asked:
             sparsity[2] = 0.0
         if "scale" in asked:
@@ -97,9 +107,12 @@ class Costs:
         moved: another set of parts that moves in a way of its own though nobody asked, plus `moved_area` times its area.
         along: the same where it goes along with something that was asked to move.
         turned, stretched: added where it turns or changes size; `squashed` where a disc loses its shape.
+        hung: added where something turns that hangs from what moves.
         uprooted: something that stood on the ground leaves it.
         extra: an unasked kind of motion of an asked part.
         idle_specifier: a kind of motion that was asked and did not happen.
+        amount: for each pixel that asked parts move on average: of equal solutions the smaller change wins.
+        pivot: how much dearer sliding is for what is asked to turn and nothing else.
         uneven: two things that are asked to turn do so by different angles.
         misaligned: an alignment lost, by its reason; all of them at most `misaligned_most`.
         asymmetric: a symmetry of a pair about a third segment lost; all of them at most `asymmetric_most`.
@@ -130,12 +143,15 @@ class Costs:
     turned: float = 1.5
     stretched: float = 3.0
     squashed: float = 2.0
+    hung: float = 1.5
     uprooted: float = 1.5
     extra: float = 3.0
     idle_specifier: float = 8.0
+    amount: float = 0.003
+    pivot: float = 2.5
     uneven: float = 2.0
     misaligned: Mapping[str, float] = field(
-        default_factory=lambda: {"touching": 1.0, "siblings": 0.3, "ground": 0.5, "support": 3.0, "overhang": 1.5}
+        default_factory=lambda: {"touching": 1.0, "siblings": 0.3, "ground": 0.5, "support": 3.0, "overhang": 1.5, "floor": 1.0}
     )
     misaligned_most: float = 3.0
     asymmetric: float = 1.5

@@ -1,4 +1,4 @@
-"""Solving batches of candidates: one compiled executable for each set of static sizes, two threads, padded batches."""
+"""Solving batches of candidates: one compiled executable for each set of static sizes, a few threads."""
 
 from __future__ import annotations
 
@@ -51,7 +51,9 @@ class Engine:
         if not candidates:
             raise ValueError("nothing to solve")
         with precise_cpu():
-            chunks = [self._stack(candidates[k : k + self.batch]) for k in range(0, len(candidates), self.batch)]
+            chunks = [
+                self._stack(candidates[k : k + self.batch]) for k in range(0, len(candidates), self.batch)
+            ]
             begin = time.perf_counter()
             executable, seconds = self._executable(chunks[0])
             self.compile_seconds += seconds
@@ -79,7 +81,7 @@ class Engine:
 
         def solve_batch(problem: Problem | Violations, candidates: Candidate | Choice) -> Solution:
             one = partial(solve_one, table=self.table, wide=self.wide)
-            return jax.vmap(one, in_axes=(None, 0))(problem, candidates)
+            return jax.vmap(one, in_axes=(None, 0))(problem, candidates)  # type: ignore[no-any-return]
 
         name = f"{self.solver}|{self.wide}|{self.table.digest}"
         return compiled(name, solve_batch, (self.problem, batch))

@@ -1,4 +1,4 @@
-"""General-purpose solvers of jaxopt and optimistix on a candidate's loss, from blunt to sharp in a few stages."""
+"""Solvers of jaxopt and optimistix on a candidate's loss, from blunt to sharp in a few stages."""
 
 from __future__ import annotations
 
@@ -14,7 +14,8 @@ from iconjax.solve.objective import Coherent, Flat, Level, Objective, scalar, ve
 from iconjax.solve.pose import DOF
 
 STAGES = 4
-"""Each stage starts where the one before ended; smoothing falls and the weight of primaries grows by equal factors."""
+"""Each stage starts where the one before ended; smoothing falls, and the weight of primaries grows, by equal
+factors."""
 STEPS = 40
 """Most iterations of a stage."""
 
@@ -35,7 +36,7 @@ def _staged(solve_stage: Any, objective: Objective) -> Flat:
         found = solve_stage(z, level)
         return jnp.where(jnp.isfinite(found).all(), found, z), None
 
-    return jax.lax.scan(stage, objective.start, levels(objective.staged))[0]  # type: ignore[no-any-return]
+    return jax.lax.scan(stage, objective.start, levels(objective.staged))[0]
 
 
 def lbfgs(objective: Objective) -> Flat:
@@ -47,16 +48,22 @@ def lbfgs(objective: Objective) -> Flat:
         return (value / level.hard, None), slope / level.hard
 
     def stage(z: Flat, level: Level) -> Flat:
-        # Unrolled loops would branch on each candidate's progress; in a batch every operator of the DSL then runs for
-        # every leaf. A loose curvature condition keeps the line search from shrinking on until it gives up.
+        # Unrolled loops branch on each candidate's progress; in a batch every operator runs for every leaf.
+        # With a loose curvature condition the line search does not shrink on until it fails.
+        both = {"value_and_grad": True, "has_aux": True, "unroll": False}
         search = jaxopt.BacktrackingLineSearch(
-            loss, value_and_grad=True, has_aux=True, condition="wolfe", c2=0.999, decrease_factor=0.4, maxiter=12,
-            unroll=False,
+            loss, condition="wolfe", c2=0.999, decrease_factor=0.4, maxiter=12, **both
         )
         solver = jaxopt.LBFGS(
-            loss, value_and_grad=True, has_aux=True, maxiter=STEPS, tol=1e-6, linesearch=search, linesearch_init="max",
-            stop_if_linesearch_fails=False, history_size=12, implicit_diff=False, unroll=False,
-        )  # fmt: skip
+            loss,
+            maxiter=STEPS,
+            tol=1e-6,
+            linesearch=search,
+            linesearch_init="max",
+            history_size=12,
+            implicit_diff=False,
+            **both,
+        )
         return solver.run(z, level).params  # type: ignore[no-any-return]
 
     return _staged(stage, objective)
@@ -69,33 +76,36 @@ def bfgs(objective: Objective) -> Flat:
     loss = scalar(objective)
 
     def stage(z: Flat, level: Level) -> Flat:
-        solver = optimistix.BFGS(rtol=1e-9, atol=1e-9)
-        return optimistix.minimise(loss, solver, z, args=level, max_steps=3 * STEPS, throw=False).value  # type: ignore[no-any-return]
+        solver: Any = optimistix.BFGS(rtol=1e-9, atol=1e-9)
+        return optimistix.minimise(loss, solver, z, args=level, max_steps=3 * STEPS, throw=False).value
 
     return _staged(stage, objective)
 
 
-def lm(objective: Coherent) -> Flat:
+def lm(objective: Objective) -> Flat:
     """`optimistix.LevenbergMarquardt`, with normal equations solved by elimination (see `linear`)."""
     import optimistix
+
+    assert isinstance(objective, Coherent)  # the only loss that is a sum of squares
 
     residuals = vector(objective)
 
     def stage(z: Flat, level: Level) -> Flat:
-        solver = optimistix.LevenbergMarquardt(rtol=1e-8, atol=1e-8, linear_solver=_elimination())
-        return optimistix.least_squares(residuals, solver, z, args=level, max_steps=STEPS, throw=False).value  # type: ignore[no-any-return]
+        solver: Any = optimistix.LevenbergMarquardt(rtol=1e-8, atol=1e-8, linear_solver=_elimination())
+        return optimistix.least_squares(residuals, solver, z, args=level, max_steps=STEPS, throw=False).value
 
     return _staged(stage, objective)
 
 
 def _elimination() -> Any:
     """A lineax solver for least squares that needs no LAPACK call."""
-    import lineax
+    import lineax  # type: ignore[import-untyped]
     from jax.flatten_util import ravel_pytree
 
     class Elimination(lineax.AbstractLinearSolver):  # type: ignore[misc]
         def init(self, operator: Any, options: Any) -> Float[Array, "M V"]:
-            return operator.as_matrix()
+            matrix: Float[Array, "M V"] = operator.as_matrix()
+            return matrix
 
         def compute(self, state: Float[Array, "M V"], vector: Any, options: Any) -> Any:
             right = ravel_pytree(vector)[0]

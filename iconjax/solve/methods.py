@@ -1,4 +1,4 @@
-"""The registered methods that minimise a candidate's loss. Adding one is a function and a line in `METHODS`."""
+"""The registered methods that minimise a candidate's loss. One more is a function and a line in `METHODS`."""
 
 from __future__ import annotations
 

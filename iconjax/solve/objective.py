@@ -1,7 +1,7 @@
 """What every method minimises: a loss of a flat parameter vector, with its exact slope.
 
-`linearise` and `residuals` compute derivatives by hand, forward and cheap. A library solver wants to differentiate a
-function itself; `scalar` and `vector` give it functions whose derivative is the one already at hand.
+`linearise` and `residuals` compute derivatives by hand, forward and cheap. A library solver wants to
+differentiate a function itself: `scalar` and `vector` give it functions whose derivative is the one at hand.
 """
 
 from __future__ import annotations
@@ -53,11 +53,11 @@ class Objective(Protocol):
     good: float
 
     @property
-    def start(self) -> Flat: ...  # noqa: D102
+    def start(self) -> Flat: ...
     @property
-    def free(self) -> Flat: ...  # noqa: D102
+    def free(self) -> Flat: ...
     @property
-    def most(self) -> Flat: ...  # noqa: D102
+    def most(self) -> Flat: ...
 
     def value_and_slope(self, z: Flat, level: Level) -> tuple[Float[Array, ""], Flat]:
         """The loss and its derivative."""
@@ -114,9 +114,10 @@ class Coherent:
         idle = jnp.sqrt(2 * bodies.sparsity / (size + eps))
         idle_slope = idle * (1 - own**2 / (2 * size * (size + eps)))
         still = jnp.sqrt(bodies.inertia)
-        rows = [hard * system.primary, factor * system.soft, (idle * own).reshape(-1), (still * own).reshape(-1)]
-        slopes = [hard * system.primary_slope, soft_slope, jnp.diag(idle_slope.reshape(-1)), jnp.diag(still.reshape(-1))]
-        rows[2:] = [r * self.free for r in rows[2:]]
+        motion = [(x * own).reshape(-1) * self.free for x in (idle, still)]
+        motion_slope = [jnp.diag(x.reshape(-1)) for x in (idle_slope, still)]
+        rows = [hard * system.primary, factor * system.soft, *motion]
+        slopes = [hard * system.primary_slope, soft_slope, *motion_slope]
         return jnp.concatenate(rows), jnp.concatenate(slopes) * self.free
 
     def _by_vector(self, x: Float[Array, "S V"]) -> Float[Array, "S V"]:
@@ -146,11 +147,11 @@ def scalar(objective: Objective) -> Callable[[Flat, Any], Float[Array, ""]]:
         hard = primals[1].hard
         return value / hard, slope @ tangents[0] / hard
 
-    return loss  # type: ignore[no-any-return]
+    return loss
 
 
 def vector(objective: Coherent) -> Callable[[Flat, Any], Float[Array, " M"]]:
-    """Rows whose squares sum to twice the loss over `hard`: a function `(z, level) -> (M,)` that JAX differentiates."""
+    """Rows whose squares sum to twice the loss over `hard`: a function `(z, level) -> (M,)` like `scalar`."""
 
     @jax.custom_jvp
     def rows(z: Flat, level: Level) -> Float[Array, " M"]:
@@ -162,4 +163,4 @@ def vector(objective: Coherent) -> Callable[[Flat, Any], Float[Array, " M"]]:
         root = jnp.sqrt(primals[1].hard)
         return value / root, slope @ tangents[0] / root
 
-    return rows  # type: ignore[no-any-return]
+    return rows

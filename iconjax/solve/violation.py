@@ -1,4 +1,4 @@
-"""The paper's loss: the mean violation of all constraints that are switched on, primary and secondary alike."""
+"""The paper's loss: the mean violation of all constraints switched on, primary and secondary alike."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ from iconjax.solve.table import OperatorTable
 
 
 class Violations(NamedTuple):
-    """What all candidates share: the constraints of one program, primary and secondary, and the meeting points of E
-    relations. There are G constraints: those of the program first, then one for each relation.
+    """What all candidates share: the constraints of one program, primary and secondary, and where E relations
+    meet. There are G constraints: those of the program first, then one for each relation.
 
     Attributes:
         code, regions: the program.
         owner: (C,) constraint that each residual of the program belongs to; G for padding.
         a, b: (E,) segments of each relation.
-        meeting: (E, 2) the place where the two meet, as material of both, px. `coincide_on_point` of it is computed
-            directly: by way of the program, which differentiates whole outlines, it takes ten times as long.
+        meeting: (E, 2) the place where the two meet, as material of both, px. `coincide_on_point` of it is
+            computed directly: by way of the program, it would differentiate whole outlines.
         allowed: (G,) violation that does not count, px: how far the constraint was violated before the edit.
         canvas: (4,) extent of the picture.
     """
@@ -37,7 +37,7 @@ class Violations(NamedTuple):
     b: Int[Array, " E"]
     meeting: Float[Array, "E 2"]
     allowed: Float[Array, " G"]
-    canvas: Float[Array, "4"]
+    canvas: Float[Array, " 4"]
 
 
 class Choice(NamedTuple):
@@ -55,10 +55,10 @@ class Choice(NamedTuple):
 
 
 class MeanViolation:
-    """The loss of one candidate. Its level of sharpness changes nothing: absolute values are never smoothed."""
+    """The loss of one candidate. The level of sharpness changes nothing: absolute values stay as they are."""
 
     staged = False
-    good = 1e-3
+    good = 5e-3
 
     def __init__(self, problem: Violations, cand: Choice, table: OperatorTable, wide: bool) -> None:
         self.problem, self.cand, self.table, self.wide = problem, cand, table, wide
@@ -72,7 +72,7 @@ class MeanViolation:
         self.owner = jax.nn.one_hot(owner, problem.allowed.shape[0], dtype=self.start.dtype).T  # G C+2E
 
     def _residuals(self, z: Flat) -> tuple[Float[Array, " C2"], Float[Array, "C2 V"], Float[Array, "N1 6"]]:
-        """Residuals of the program, then two for each meeting point; their derivatives; the segments' transforms."""
+        """Residuals of the program, then two for each relation; derivatives; the segments' transforms."""
         bodies, problem = self.cand.bodies, self.problem
         own = z.reshape(bodies.free.shape)
         m, d = matrices(own, bodies), jacobians(own, bodies)
