@@ -19,9 +19,7 @@ from iconjax.evaluation.run import run_benchmark
 @click.argument("folder")
 @click.option("--out", required=True, metavar="DIR", help="Folder for the results.")
 @click.option("--method", "methods", multiple=True, metavar="NAME", help="May be given several times.")
-@click.option(
-    "--case", "cases", multiple=True, metavar="ID", help="Only this case; may be given several times."
-)
+@click.option("--case", "cases", multiple=True, metavar="ID", help="Only this case; may be given several times.")
 @click.option("--translator", metavar="NAME", help="Who reads the requests.")
 @click.option("--jobs", default=1, show_default=True, help="Processes to use.")
 @click.option("--quiet", is_flag=True, help="No line for each finished case.")

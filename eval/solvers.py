@@ -119,20 +119,14 @@ def table(solved: Sequence[Solved]) -> str:
 
 @click.command(help=__doc__)
 @click.argument("folder", type=click.Path(exists=True, file_okay=False, path_type=Path))
-@click.option(
-    "--case", "cases", multiple=True, metavar="ID", help="Only this case; may be given several times."
-)
-@click.option(
-    "--method", "methods", multiple=True, metavar="NAME", help="May be given several times; all by default."
-)
+@click.option("--case", "cases", multiple=True, metavar="ID", help="Only this case; may be given several times.")
+@click.option("--method", "methods", multiple=True, metavar="NAME", help="May be given several times; all by default.")
 @click.option("--most", default=32, show_default=True, help="Candidates of each case.")
 def main(folder: Path, cases: tuple[str, ...], methods: tuple[str, ...], most: int) -> None:
     os.environ["ICONJAX_CACHE"] = ""
     from iconjax.solve.methods import METHODS
 
-    folders = [folder / c for c in cases] or sorted(
-        p for p in folder.iterdir() if (p / "program.txt").exists()
-    )
+    folders = [folder / c for c in cases] or sorted(p for p in folder.iterdir() if (p / "program.txt").exists())
     work = [first_round(f, most) for f in folders]
     solved = []
     for name in methods or tuple(METHODS):

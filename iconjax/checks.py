@@ -40,9 +40,7 @@ def check_picture(picture: str, seg: str | None, labels: str | None) -> None:
                 f"{picture} is a case folder, which has its own segmentation: leave out --seg and --labels"
             )
     elif seg is None:
-        raise InputError(
-            f"{picture} is an image, so it needs --seg (a label map) and --labels; or give a case folder"
-        )
+        raise InputError(f"{picture} is an image, so it needs --seg (a label map) and --labels; or give a case folder")
 
 
 def check_choices(translator: str | None, program: str | None, interpretations: int) -> None:
@@ -63,9 +61,7 @@ def check_choices(translator: str | None, program: str | None, interpretations: 
         choose_translator(translator)
 
 
-def check_outputs(
-    target: Path, json_file: str | None, trace: str | None, inputs: tuple[str | None, ...]
-) -> None:
+def check_outputs(target: Path, json_file: str | None, trace: str | None, inputs: tuple[str | None, ...]) -> None:
     """Output files that cannot be written, that collide, or that would overwrite an input.
 
     Raises:

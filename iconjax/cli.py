@@ -36,9 +36,7 @@ def picture_options(command: Command) -> Command:
         click.option(
             "--labels", metavar="FILE", help='Names of the segments, as JSON {"1": "Lamp:Shade", ...} or CSV.'
         ),
-        click.option(
-            "--seg", metavar="FILE", help="Label map of the image: 0 is background, k is segment k."
-        ),
+        click.option("--seg", metavar="FILE", help="Label map of the image: 0 is background, k is segment k."),
         click.argument("picture", metavar="CASE_OR_IMAGE"),
     ):
         command = decorate(command)
@@ -130,9 +128,7 @@ def edit(
 @picture_options
 @click.argument("request", required=False)
 @translator_option
-def translate(
-    picture: str, seg: str | None, labels: str | None, request: str | None, translator: str | None
-) -> None:
+def translate(picture: str, seg: str | None, labels: str | None, request: str | None, translator: str | None) -> None:
     """Print the constraints that REQUEST asks for, as a program that `iconjax edit --program` takes."""
     check_picture(picture, seg, labels)
     with progress() as stage:
@@ -206,9 +202,7 @@ def evaluate(
     check_choices(translator, None, 1)
     from iconjax.evaluation.run import run_benchmark
 
-    report = run_benchmark(
-        folder, out, methods=method or None, translator=translator, cases=cases or None, jobs=jobs
-    )
+    report = run_benchmark(folder, out, methods=method or None, translator=translator, cases=cases or None, jobs=jobs)
     click.echo(report.markdown())
 
 

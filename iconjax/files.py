@@ -69,9 +69,7 @@ def image_format(path: str | os.PathLike[str]) -> str:
     """
     suffix = Path(path).suffix.lower()
     if suffix not in IMAGE_SUFFIXES:
-        raise InputError(
-            f"cannot write {path}: the name of an image ends in one of {', '.join(IMAGE_SUFFIXES)}"
-        )
+        raise InputError(f"cannot write {path}: the name of an image ends in one of {', '.join(IMAGE_SUFFIXES)}")
     return IMAGE_SUFFIXES[suffix]
 
 

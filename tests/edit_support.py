@@ -53,9 +53,7 @@ def fake_search(satisfied: bool = True):
             ConstraintReport(t, "primary", 0.0 if satisfied else 12.345, "px", satisfied) for t in texts
         )
         trace = (
-            TraceEntry(
-                0, "start <b>", {first: "T"}, (), math.inf, {"primary": math.inf}, False, "a constraint fails"
-            ),
+            TraceEntry(0, "start <b>", {first: "T"}, (), math.inf, {"primary": math.inf}, False, "a constraint fails"),
             TraceEntry(
                 1,
                 "loosen",

@@ -44,9 +44,7 @@ def stage(transforms: Mapping[int, np.ndarray] | None = None, unit: float = 1.0)
     return Stage((side, side), outlines, LABELS, scaled)
 
 
-def write_case(
-    folder: Path, *, goal: list[dict[str, Any]] | None = None, truth: dict[str, Any] | None = None
-) -> Path:
+def write_case(folder: Path, *, goal: list[dict[str, Any]] | None = None, truth: dict[str, Any] | None = None) -> Path:
     """A case folder with a red square that is to move right by 20 px and a green one that is to stay."""
     folder.mkdir(parents=True)
     mask = np.zeros((64, 64), np.uint8)

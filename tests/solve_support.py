@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 
 import numpy as np
 import pytest
@@ -17,8 +18,10 @@ from iconjax.search.config import SearchConfig
 from iconjax.search.setup import Setup, prepare
 from iconjax.solve.table import OperatorTable, operator_table
 
-MEASURES = {"hori_len", "center_x", "min_x", "overlap", "coincide_on_point"}
-STEPS = {"equal", "larger", "plus", "mul"}
+MEASURES = {"hori_len", "center_x"}
+STEPS = {"equal", "plus", "mul"}
+QUICK = {"xla_backend_optimization_level": 0, "xla_llvm_disable_expensive_passes": True}
+"""Compiling takes most of the time."""
 
 NARROWER = (
     'scale("Lamp:Shade")',
@@ -42,21 +45,21 @@ def picture() -> Scene:
     return build_scene(image, Segmentation(mask, LABELS))
 
 
-def few_operators(registry, used=frozenset()) -> OperatorTable:
-    """The registry's table with only `MEASURES` and `STEPS`; other operators cannot be used."""
+def few_operators(registry, used=frozenset(), measures=frozenset(MEASURES)) -> OperatorTable:
+    """The registry's table with only `measures` and `STEPS`; other operators cannot be used."""
     whole = operator_table(registry)
 
     def kept(keys, names):
         return [k for k, key in enumerate(keys) if key.split("#")[0] in names and "@" not in key]
 
-    leaves, steps = kept(whole.leaf_keys, MEASURES), kept(whole.step_keys, STEPS)
+    leaves, steps = kept(whole.leaf_keys, measures), kept(whole.step_keys, STEPS)
     return whole._replace(
         leaf_keys=tuple(whole.leaf_keys[k] for k in leaves),
         leaf_kinds=tuple(whole.leaf_kinds[k] for k in leaves),
         leaf_functions=tuple(whole.leaf_functions[k] for k in leaves),
         step_keys=tuple(whole.step_keys[k] for k in steps),
         step_functions=tuple(whole.step_functions[k] for k in steps),
-        digest=hashlib.sha256(f"few of {whole.digest}".encode()).hexdigest()[:16],
+        digest=hashlib.sha256(f"{sorted(measures)} of {whole.digest}".encode()).hexdigest()[:16],
     )
 
 
@@ -65,8 +68,10 @@ def quick_compiles() -> Iterator[None]:
     """Programs are compiled with `few_operators`, and nothing is read from or written to the user's cache."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("ICONJAX_CACHE", "")
-        for module in ("iconjax.search.setup", "iconjax.search.paper_program"):
-            patch.setattr(f"{module}.operator_table", few_operators)
+        patch.setattr("iconjax.solve.cache.OPTIONS", QUICK)
+        patch.setattr("iconjax.search.setup.operator_table", few_operators)
+        relating = partial(few_operators, measures=frozenset(MEASURES | {"overlap"}))
+        patch.setattr("iconjax.search.paper_program.operator_table", relating)
         yield
 
 

@@ -157,8 +157,6 @@ def test_a_closed_pipe_is_no_error(place):
 def test_a_full_disk_behind_stdout_is_one_line():
     root = Path(iconjax.__file__).parents[1]
     with open("/dev/full", "wb") as full:
-        done = subprocess.run(
-            [sys.executable, "-m", "iconjax", "dsl"], cwd=root, stdout=full, stderr=subprocess.PIPE
-        )
+        done = subprocess.run([sys.executable, "-m", "iconjax", "dsl"], cwd=root, stdout=full, stderr=subprocess.PIPE)
     assert done.returncode == 2
     assert done.stderr == b"iconjax: error: no space left on device\n"

@@ -15,15 +15,11 @@ from dsl_helpers import affine, disc, rectangle, region
 from iconjax.dsl.registry import default_registry
 
 REGISTRY = default_registry()
-FUNCTIONS = [
-    o.name for o in REGISTRY.operators.values() if o.has_function and o.group not in ("arithmetic", "value")
-]
+FUNCTIONS = [o.name for o in REGISTRY.operators.values() if o.has_function and o.group not in ("arithmetic", "value")]
 ANCHORS = np.array([110.0, 105.0, 180.0, 140.0])
 
 # Tips that point at each other and a far-off base: every minimum and maximum is attained at one point only.
-KITE = region(
-    shapes.polygon([(100, 80), (175, 113), (90, 150), (40, 100)]), long_dir=(0.96, 0.28), frame=(0.8, 0.6)
-)
+KITE = region(shapes.polygon([(100, 80), (175, 113), (90, 150), (40, 100)]), long_dir=(0.96, 0.28), frame=(0.8, 0.6))
 TENT = region(shapes.polygon([(190, 120), (320, 90), (290, 230)]), long_dir=(-0.6, 0.8), frame=(0.6, -0.8))
 BAR = region(rectangle(100, 100, 180, 120))
 
@@ -151,9 +147,7 @@ def test_angle_to_the_old_pose_can_leave_zero():
     assert slope[1, 0] > 0.5
 
 
-@pytest.mark.parametrize(
-    "name", ["touch", "overlap", "inside", "contain", "min_dist", "avg_dist", "max_dist"]
-)
+@pytest.mark.parametrize("name", ["touch", "overlap", "inside", "contain", "min_dist", "avg_dist", "max_dist"])
 def test_there_is_pull_from_far_away(name):
     far = gradient(name, (affine(shift=(-2000, 0)), affine()))
     assert far[0, 0, 2] < -0.5

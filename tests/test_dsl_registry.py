@@ -153,9 +153,7 @@ def test_loading_needs_no_jax_and_the_installed_folder_comes_first(tmp_path):
         "import pathlib; r.__file__ = str(pathlib.Path(sys.argv[1]) / 'registry.py'); print(r.specs_folder())"
     )
     (tmp_path / "specs").mkdir()
-    run = subprocess.run(
-        [sys.executable, "-c", code, str(tmp_path)], check=True, capture_output=True, text=True
-    )
+    run = subprocess.run([sys.executable, "-c", code, str(tmp_path)], check=True, capture_output=True, text=True)
     assert run.stdout.strip() == str(tmp_path / "specs")
     assert specs_folder().is_dir()
     assert Registry.load(specs_folder(), MODULES).operators == REGISTRY.operators

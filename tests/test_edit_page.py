@@ -124,9 +124,7 @@ def test_page_of_an_edit_without_record(result):
 
 
 def test_a_missed_constraint_is_shown(result):
-    missed = replace(
-        result, constraints=tuple(replace(c, satisfied=False, violation=7.0) for c in result.constraints)
-    )
+    missed = replace(result, constraints=tuple(replace(c, satisfied=False, violation=7.0) for c in result.constraints))
     text = Reader(missed.to_html()).text
     assert "2 of 2 constraints missed" in text
     assert "7 px" in text

@@ -137,9 +137,7 @@ def test_transforms_that_do_not_fit_are_that_case_s_failure(bench: Path, tmp_pat
 def test_a_process_that_dies_costs_only_its_own_case(bench: Path, tmp_path: Path) -> None:
     from iconjax.evaluation.run import evaluate_folder
 
-    records = evaluate_folder(
-        sorted(bench.iterdir()), tmp_path / "out", "fake", die_on_bad, settings={}, jobs=2
-    )
+    records = evaluate_folder(sorted(bench.iterdir()), tmp_path / "out", "fake", die_on_bad, settings={}, jobs=2)
     assert [r.right for r in records] == [True, False, True]
     assert records[1].error == "RuntimeError: the process died"
 

@@ -65,3 +65,31 @@ def test_synonyms_are_told() -> None:
     translation = OfflineTranslator().translate("make the automobile 30% longer", SCENES["street"])
     assert any('"automobile" read as "car"' in line for line in translation.understood)
     assert translation.program[0] == 'scale("Car")'
+
+
+@pytest.mark.parametrize(
+    ("scene", "request_", "says"),
+    [
+        ("desk", "make the mug 20% wider, as if it weighed 2 kilos", "kilos"),
+        ("desk", "shrink the mug on the book by 30%", "is not on"),
+        ("desk", "put the mug on the table, on the left", "left"),
+        ("house", "make the tree's crown as wide as the hole in the door", "hole"),
+        ("house", "lower the left end of the fence to the ground", "left"),
+        ("flower", "tip the vase clockwise by 20 degrees with the flower in it", "unclear"),
+        ("house", "make both suns 20% bigger", "are two"),
+    ],
+)
+def test_rather_refuses_than_guesses(scene: str, request_: str, says: str) -> None:
+    with pytest.raises(TranslationError) as caught:
+        translate(scene, request_)
+    assert says in str(caught.value)
+
+
+def test_asides_are_told() -> None:
+    """What only explains is left out, and the reading says so."""
+    translation = OfflineTranslator().translate("tilt the lamp 10 degrees, as though it was drunk", SCENES["desk"])
+    assert translation.program == (
+        'rotate("Lamp")',
+        'equal(angle("Lamp", old("Lamp")), 10)',
+    )
+    assert any("only explains" in line for line in translation.understood)

@@ -75,9 +75,7 @@ def translate(scene: str, request: str) -> tuple[str, ...]:
     return OfflineTranslator().translate(request, SCENES[scene]).program
 
 
-@pytest.mark.parametrize(
-    "case", [c for c in DATA["requests"] if c["program"] is not None], ids=lambda c: c["request"]
-)
+@pytest.mark.parametrize("case", [c for c in DATA["requests"] if c["program"] is not None], ids=lambda c: c["request"])
 def test_reads_right(case: dict[str, Any]) -> None:
     """Lines that begin with "?" may be there or not."""
     got = {canonical(line) for line in translate(case["scene"], case["request"])}
@@ -87,9 +85,7 @@ def test_reads_right(case: dict[str, Any]) -> None:
     assert got - needed - allowed == set()
 
 
-@pytest.mark.parametrize(
-    "case", [c for c in DATA["requests"] if c["program"] is None], ids=lambda c: c["request"]
-)
+@pytest.mark.parametrize("case", [c for c in DATA["requests"] if c["program"] is None], ids=lambda c: c["request"])
 def test_refuses(case: dict[str, Any]) -> None:
     with pytest.raises(TranslationError) as caught:
         translate(case["scene"], case["request"])

@@ -21,10 +21,7 @@ def test_import_is_light():
     heavy = ["jax", "jaxlib", "anthropic", "skimage", "scipy", "shapely", "networkx"]
     found = f"print([m for m in {heavy} if m in sys.modules])"
     assert run(f"import iconjax, sys; {found}") == "[]"
-    assert (
-        run(f"import iconjax, sys; iconjax.EditConfig(); iconjax.Segmentation; iconjax.InputError; {found}")
-        == "[]"
-    )
+    assert run(f"import iconjax, sys; iconjax.EditConfig(); iconjax.Segmentation; iconjax.InputError; {found}") == "[]"
 
 
 def test_import_touches_no_network():

@@ -110,7 +110,10 @@ def test_what_lies_in_a_hole_is_inside_and_joined_at_its_own_centre():
 
 @pytest.mark.parametrize("detail_first", [True, False])
 def test_what_is_let_into_an_edge_is_a_detail_of_its_host(detail_first):
-    shapes = {"House:Window": rect(56, 30, 72, 46), "House:Wall": [rect(30, 30, 56, 100), rect(72, 30, 98, 100)]}
+    shapes = {
+        "House:Window": rect(56, 30, 72, 46),
+        "House:Wall": [rect(30, 30, 56, 100), rect(72, 30, 98, 100)],
+    }
     shapes["House:Wall"].append(rect(30, 46, 98, 100))
     order = shapes if detail_first else dict(reversed(shapes.items()))
     found = relations(picture(order))
@@ -126,7 +129,9 @@ def test_what_only_stands_on_its_neighbour_is_no_detail():
 
 
 def test_relations_between_objects_have_their_own_scope():
-    scene = picture({"Cup": rect(40, 30, 70, 60), "Table:Top": rect(20, 60, 110, 70), "Table:Leg": rect(60, 70, 68, 110)})
+    scene = picture(
+        {"Cup": rect(40, 30, 70, 60), "Table:Top": rect(20, 60, 110, 70), "Table:Leg": rect(60, 70, 68, 110)}
+    )
     scopes = {names: r.scope for names, r in relations(scene).items()}
     assert scopes == {("Cup", "Table:Top"): "inter", ("Table:Top", "Table:Leg"): "intra-crucial"}
 
@@ -175,7 +180,10 @@ def test_objects_far_apart_are_not_related():
 
 
 def test_a_pair_has_at_most_one_relation_and_none_with_itself():
-    shapes = {f"Wall:Brick {k}": rect(10 + 25 * (k % 4), 20 + 20 * (k // 4), 35 + 25 * (k % 4), 40 + 20 * (k // 4)) for k in range(12)}
+    shapes = {
+        f"Wall:Brick {k}": rect(10 + 25 * (k % 4), 20 + 20 * (k // 4), 35 + 25 * (k % 4), 40 + 20 * (k // 4))
+        for k in range(12)
+    }
     scene = picture(shapes)
     pairs = [frozenset(p) for p in relations(scene)]
     assert len(pairs) == len(set(pairs)) and all(len(p) == 2 for p in pairs)

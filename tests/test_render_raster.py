@@ -96,9 +96,7 @@ def test_whole_pixel_translation_of_everything_is_exact() -> None:
 
 
 def test_whole_pixel_translation_of_one_is_exact() -> None:
-    scene = drawn(
-        [("ellipse", [20.3, 20.2, 60.6, 55.1], (40, 90, 200)), ("ellipse", [90, 90, 120, 115], (9, 9, 9))]
-    )
+    scene = drawn([("ellipse", [20.3, 20.2, 60.6, 55.1], (40, 90, 200)), ("ellipse", [90, 90, 120, 115], (9, 9, 9))])
     out = render(scene, shifted(scene, s1=(13, 31)), (0, 1))
     rows, cols = np.nonzero(scene.segments[0].mask)
     assert np.array_equal(out[rows + 31, cols + 13], scene.image[rows, cols])
@@ -222,9 +220,7 @@ def test_a_hole_that_moves_onto_its_segments_old_place_stays_a_hole() -> None:
 
 
 def test_order_decides_what_is_seen() -> None:
-    scene = drawn(
-        [("rectangle", [10, 10, 50, 50], (200, 0, 0)), ("rectangle", [70, 10, 110, 50], (0, 0, 200))]
-    )
+    scene = drawn([("rectangle", [10, 10, 50, 50], (200, 0, 0)), ("rectangle", [70, 10, 110, 50], (0, 0, 200))])
     matrices = shifted(scene, s1=(30, 0), s2=(-30, 0))
     assert tuple(render(scene, matrices, (0, 1))[30, 60]) == (0, 0, 200)
     assert tuple(render(scene, matrices, (1, 0))[30, 60]) == (200, 0, 0)

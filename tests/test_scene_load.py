@@ -61,9 +61,7 @@ def test_every_common_file_mode_becomes_rgb(mode: str) -> None:
     grey = Image.new("L", (4, 3), 255)
     source = Image.fromarray(np.full((3, 4), 65535, np.uint16)) if mode.startswith("I") else None
     if source is None:
-        source = (
-            Image.new("LAB", (4, 3), (255, 128, 128)) if mode == "LAB" else grey.convert("RGB").convert(mode)
-        )
+        source = Image.new("LAB", (4, 3), (255, 128, 128)) if mode == "LAB" else grey.convert("RGB").convert(mode)
     image = load_image(source.convert("I") if mode == "I" else source)
     assert image.shape == (3, 4, 3)
     assert image.min() >= 254

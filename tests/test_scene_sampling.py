@@ -70,9 +70,7 @@ def test_resample_gives_exactly_count_points_on_the_outlines(count: int, pieces:
     loops = []
     for _ in range(pieces):
         angles = np.sort(rng.uniform(0, 2 * np.pi, rng.integers(3, 40)))
-        loops.append(
-            rng.uniform(0, 500, 2) + rng.uniform(1, 90) * np.stack([np.cos(angles), np.sin(angles)], 1)
-        )
+        loops.append(rng.uniform(0, 500, 2) + rng.uniform(1, 90) * np.stack([np.cos(angles), np.sin(angles)], 1))
     points, ends, weight = sampling.resample(loops, count)
     assert points.shape == ends.shape == (count, 2)
     assert weight.shape == (count,)

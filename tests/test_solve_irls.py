@@ -68,16 +68,24 @@ def test_soft_residuals_are_zero_before_the_edit(soft, kind):
     assert np.abs(found.value).max() < 1e-9 and np.abs(found.norm).max() < 1e-5
 
 
-@pytest.mark.parametrize("kind", ["joints", "boxes"])
+def some_motion(cand):
+    """Parameters that move everything, the ball out of the picture."""
+    z = np.random.default_rng(1).normal(0, 7, cand.bodies.free.shape)
+    z[3, :2] = [25, -30]
+    return z * cand.bodies.free
+
+
+@pytest.mark.parametrize("kind", ["joints", "sliding joints", "boxes"])
 def test_soft_slopes_agree_with_finite_differences(soft, kind):
     cand, rows = soft
-    z = np.random.default_rng(1).normal(0, 7, cand.bodies.free.shape)
-    z[3, :2] = [25, -30]  # the ball sticks out of the picture
-    z = z * cand.bodies.free
+    z, kind, sliding = some_motion(cand), kind.split()[-1], kind.startswith("sliding")
     found = rows(kind, z)
-    assert (np.abs(found.value) > 0.5).sum() > 5
     numeric = numeric_slope(lambda x: rows(kind, x).value, z, 1e-4).reshape(found.slope.shape)
-    assert np.allclose(found.slope * cand.bodies.free, numeric * cand.bodies.free, atol=1e-5)
+    some = np.arange(len(found.value))
+    if kind == "joints":
+        some = some[6:] if not sliding else some[:6]  # only the first relation may slide
+    assert (np.abs(found.value[some]) > 0.1).sum() > 3
+    assert np.allclose(found.slope[some], numeric[some] * cand.bodies.free, atol=1e-5)
 
 
 def test_a_rigid_motion_of_all_opens_no_joint(soft):

@@ -68,7 +68,8 @@ def test_the_third_turns_clockwise_about_the_centre_by_pixels_at_the_rim(pose):
     z[:, 2] = about.radius * np.radians(90)
     for row, centre in zip(pose(matrices, z, about).reshape(4, 2, 3), about.centre, strict=True):
         assert np.allclose(row @ [*centre, 1], centre)
-        assert np.allclose(row @ [centre[0] + 10, centre[1], 1], centre + [0, 10])  # right goes down
+        right, below = centre + np.array([10, 0]), centre + np.array([0, 10])
+        assert np.allclose(row @ [*right, 1], below)
 
 
 def test_the_last_two_scale_along_and_across_the_own_axis(pose):

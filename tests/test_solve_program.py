@@ -60,7 +60,9 @@ def small_table(words):
 @functools.cache
 def kernel(words, wide):
     table = small_table(words)
-    return jax.jit(lambda code, regions, m, body: residuals(code, regions, m, body, table, wide), compiler_options=QUICK)
+    return jax.jit(
+        lambda code, regions, m, body: residuals(code, regions, m, body, table, wide), compiler_options=QUICK
+    )
 
 
 def compiled(text, words=PLAIN):
@@ -136,7 +138,8 @@ def test_old_material_stays_where_it_was():
 
 
 def test_sides_are_the_outermost_quarter_and_move_along():
-    text = 'equal(vert_len(top("C")), 0)\nequal(max_y(bot("C")), 0)\nequal(hori_len(left("C")), 0)\nequal(min_x(right("C")), 0)'
+    sides = ('vert_len(top("C"))', 'max_y(bot("C"))', 'hori_len(left("C"))', 'min_x(right("C"))')
+    text = "\n".join(f"equal({side}, 0)" for side in sides)
     still, _ = run(compiled(text), [affine()] * 3)
     assert np.allclose(np.abs(still), [5, 90, 7.5, 102.5], atol=0.6)
     value, _ = run(compiled(text), SHIFTED)  # C is stretched to twice its width about x = 95
@@ -175,7 +178,9 @@ def test_a_segment_without_a_body_stays():
 
 
 def test_equal_expressions_share_a_register():
-    ready = compiled('equal(center_x("A"), center_x("B"))\nequal(center_x("A"), plus(center_x("B"), 5))\nequal(center_x("B"), 5)')
+    ready = compiled(
+        'equal(center_x("A"), center_x("B"))\nequal(center_x("A"), plus(center_x("B"), 5))\nequal(center_x("B"), 5)'
+    )
     assert int(ready.code.leaves) == 2
     assert int(ready.code.steps) == 5  # three comparisons, one sum, and the literal once
     assert len(np.unique(ready.code.region_a[:2])) == 2
@@ -190,7 +195,10 @@ def test_instructions_beyond_the_end_change_nothing():
     ready = compiled('equal(plus(center_x("A"), min_y("C")), 3)\nsmaller(hori_len("B"), 9)')
     code = ready.code
     leaves, steps = int(code.leaves), int(code.steps)
-    junk = {f: getattr(code, f).copy() for f in ("leaf_op", "region_a", "region_b", "extra", "step_op", "value_a", "literal")}
+    junk = {
+        f: getattr(code, f).copy()
+        for f in ("leaf_op", "region_a", "region_b", "extra", "step_op", "value_a", "literal")
+    }
     for name, array in junk.items():
         array[(leaves if name in ("leaf_op", "region_a", "region_b", "extra") else steps) :] = 1
     full = {"value": run(ready)[0], "slope": run(ready)[1]}

@@ -59,9 +59,7 @@ def parse_syntax(text: str | Sequence[str]) -> tuple[Program, list[Problem]]:
         raise InvalidProgramError([Problem(1, 1, f"a program has at most {MAX_CHARS} characters")])
     problems: list[Problem] = []
     calls: list[Call] = []
-    for count, chunk in enumerate(
-        chunks(entries, numbered=not isinstance(text, str), parses=_parses), start=1
-    ):
+    for count, chunk in enumerate(chunks(entries, numbered=not isinstance(text, str), parses=_parses), start=1):
         calls += _Reader(chunk, problems).calls()
         if max(count, len(calls)) > MAX_CALLS:
             raise InvalidProgramError([Problem(chunk.line, 1, f"a program has at most {MAX_CALLS} calls")])
@@ -166,9 +164,7 @@ class _Reader:
         """1-based line and column, in characters (Python counts bytes)."""
         lines = self.chunk.text.split("\n")
         before = (
-            lines[node.lineno - 1].encode("utf-8", "replace")[: node.col_offset]
-            if node.lineno <= len(lines)
-            else b""
+            lines[node.lineno - 1].encode("utf-8", "replace")[: node.col_offset] if node.lineno <= len(lines) else b""
         )
         return self.place(node.lineno, len(before.decode("utf-8", "replace")) + 1)
 

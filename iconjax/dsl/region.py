@@ -17,7 +17,7 @@ class Region(NamedTuple):
         points: (P, 2) outline vertices, current pose, in order along each closed loop.
         ends: (P, 2) the end of the outline edge that starts at each of `points`; a padding edge has zero length.
         points0: (P, 2) `points` before the edit.
-        weight: (P,) share of outline length each point stands for; sums to 1, 0 marks padding (points may sit anywhere then).
+        weight: (P,) share of outline length each point stands for; sums to 1, 0 marks padding (which may sit anywhere).
         matrix: (2, 3) affine transform of the region as one thing (area-weighted mean over its segments).
         long_dir0: (2,) unit principal axis before the edit.
         frame0: (2,) unit vector of the region's own x axis before the edit (the scaling frame).

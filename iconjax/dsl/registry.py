@@ -111,9 +111,7 @@ class Registry:
                 faults += _misfits(binding, function, self.operators.get(binding.name))
         for operator in self.operators.values():
             roles = ("value", "residual") if operator.is_specifier else ("value",)
-            missing = [
-                r for r in roles if operator.has_function and Binding(operator.name, r, None) not in functions
-            ]
+            missing = [r for r in roles if operator.has_function and Binding(operator.name, r, None) not in functions]
             faults += [f"{operator.name} is declared but has no {role} function" for role in missing]
         if faults:
             raise ConfigError("operator declarations and functions differ: " + "; ".join(faults))
@@ -129,9 +127,7 @@ def _misfits(binding: Binding, function: Callable[..., Any], operator: Operator 
         return [f"{binding.name} is no specifier and has no residual"]
     count = len(inspect.signature(function).parameters)
     if count != operator.arity:
-        return [
-            f"{binding.name} is declared with {operator.arity} arguments, its {binding.role} takes {count}"
-        ]
+        return [f"{binding.name} is declared with {operator.arity} arguments, its {binding.role} takes {count}"]
     return []
 
 

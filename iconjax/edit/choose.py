@@ -13,9 +13,7 @@ from iconjax.language.base import Translator
 CREDENTIALS = ("ANTHROPIC_API_KEY", "ANTHROPIC_AUTH_TOKEN")
 """Environment variables that configure Anthropic; only whether one is set is looked at here."""
 
-PLANNED = {
-    "anthropic": "this version has no Anthropic translator yet; use 'offline', or an object with .translate"
-}
+PLANNED = {"anthropic": "this version has no Anthropic translator yet; use 'offline', or an object with .translate"}
 """Names that documentation speaks of and that may not be registered, each with what to do instead."""
 
 
@@ -60,9 +58,7 @@ def choose_translator(wanted: Translator | str | None = None) -> Translator:
     if isinstance(wanted, str):
         return _by_name(wanted)
     if not callable(getattr(wanted, "translate", None)):
-        raise ConfigError(
-            f"translator is a {type(wanted).__name__}, which has no method translate(request, scene)"
-        )
+        raise ConfigError(f"translator is a {type(wanted).__name__}, which has no method translate(request, scene)")
     return wanted
 
 
@@ -76,11 +72,7 @@ def _by_name(name: str) -> Translator:
         if name in PLANNED:
             raise ConfigError(f"translator {name!r} is not available: {PLANNED[name]}")
         close = get_close_matches(name, _FACTORIES, 1)
-        hint = (
-            f"did you mean {close[0]!r}?"
-            if close
-            else f"it can be 'auto' or {', '.join(map(repr, _FACTORIES))}"
-        )
+        hint = f"did you mean {close[0]!r}?" if close else f"it can be 'auto' or {', '.join(map(repr, _FACTORIES))}"
         raise ConfigError(f"there is no translator {name!r}; {hint}")
     if name == "anthropic" and not has_credentials():
         raise ConfigError(f"translator 'anthropic' needs credentials: set {' or '.join(CREDENTIALS)}")

@@ -36,18 +36,14 @@ class EditConfig:
 
     def __post_init__(self) -> None:
         if self.strategy not in STRATEGIES:
-            raise ConfigError(
-                f"strategy is {self.strategy!r}; it can be {' or '.join(map(repr, STRATEGIES))}"
-            )
+            raise ConfigError(f"strategy is {self.strategy!r}; it can be {' or '.join(map(repr, STRATEGIES))}")
         for name in ("relation_search", "motion_search"):
             if not isinstance(getattr(self, name), bool):
                 raise ConfigError(f"{name} is {getattr(self, name)!r}; it can be True or False")
         if not isinstance(self.solver, str):
             raise ConfigError(f"solver is {self.solver!r}; it has to be a name")
         if not isinstance(self.search, Mapping):
-            raise ConfigError(
-                f"search is a {type(self.search).__name__}; it has to be a mapping of names to values"
-            )
+            raise ConfigError(f"search is a {type(self.search).__name__}; it has to be a mapping of names to values")
         object.__setattr__(self, "search", MappingProxyType(dict(self.search)))
         self.to_search()
 

@@ -30,11 +30,7 @@ def explain(result: EditResult) -> str:
     ]
     lines += ["Changed:", *moved] if moved else ["Nothing was changed."]
     still = len(result.scene.segments) - len(moved)
-    lines += (
-        [f"  {still} other segment{'s' if still != 1 else ''} stayed exactly as before"]
-        if moved and still
-        else []
-    )
+    lines += [f"  {still} other segment{'s' if still != 1 else ''} stayed exactly as before"] if moved and still else []
     loose = [r for r in result.relations if r.state in ("WK", "N")]
     lines += ["Loosened:"] if loose else []
     lines += [f"  {r.a} - {r.b} ({r.kind}): {STATES.get(r.state, r.state)}" for r in loose]

@@ -41,16 +41,12 @@ def open_inputs(image: Any, seg: Any = None, request: str | None = None, labels:
         raise InputError(f"the request has to be text, not {type(request).__name__}")
     if is_folder(image):
         if seg is not None or labels is not None:
-            raise InputError(
-                f"{image} is a case folder, which has its own segmentation: leave out seg and labels"
-            )
+            raise InputError(f"{image} is a case folder, which has its own segmentation: leave out seg and labels")
         case = load_case(image)
         scene = build_scene(case.image, case.segmentation)
         return Inputs(scene, case.request if request is None else request)
     if seg is None:
-        raise InputError(
-            "no segmentation: give seg (a label map) and labels, or a case folder in place of the image"
-        )
+        raise InputError("no segmentation: give seg (a label map) and labels, or a case folder in place of the image")
     return Inputs(build_scene(image, seg, labels), request or "")
 
 

@@ -127,8 +127,7 @@ def _relations(result: EditResult) -> str:
             escape(r.b),
             escape(r.kind),
             escape(r.scope),
-            tag(r.state, kinds.get(r.state, ""))
-            + f'<span class="quiet">{escape(STATES.get(r.state, ""))}</span>',
+            tag(r.state, kinds.get(r.state, "")) + f'<span class="quiet">{escape(STATES.get(r.state, ""))}</span>',
         )
         for r in result.relations
     ]
@@ -148,8 +147,7 @@ def table(
     """A table of cells that are HTML already; `numbers` are the columns to align right."""
     kinds = [' class="number"' if i in numbers else "" for i in range(len(heads))]
     body = "".join(
-        "<tr>" + "".join(f"<td{k}>{c}</td>" for k, c in zip(kinds, row, strict=True)) + "</tr>\n"
-        for row in rows
+        "<tr>" + "".join(f"<td{k}>{c}</td>" for k, c in zip(kinds, row, strict=True)) + "</tr>\n" for row in rows
     )
     if not body:
         return f'<div class="card text quiet">{escape(empty)}</div>\n'

@@ -35,11 +35,7 @@ def search_section(trace: Sequence[TraceEntry]) -> str:
     head = "".join(f'<th class="{kind}"><button type="button">{name}</button></th>' for name, kind in HEADS)
     rows = "".join(_row(e, colours) for e in shown)
     left_out = len(trace) - len(shown)
-    note = (
-        f'<p class="quiet">{left_out} more candidates, which cost more, are left out here.</p>'
-        if left_out
-        else ""
-    )
+    note = f'<p class="quiet">{left_out} more candidates, which cost more, are left out here.</p>' if left_out else ""
     return (
         f'<h2>What the search tried</h2><p class="legend">{LEGEND}</p>'
         f'<div class="card"><table class="search"><thead><tr>{head}</tr></thead>'
@@ -75,11 +71,7 @@ def _row(entry: TraceEntry, colours: dict[str, str]) -> str:
         ("wide", _key(total), _terms(entry, colours)),
         ("wide", f"{verdict} {escape(entry.reason, quote=True)}", f"<b>{verdict}</b> {escape(entry.reason)}"),
     )
-    return (
-        f"<tr{kept}>"
-        + "".join(f'<td class="{c}" data-key="{k}">{html}</td>' for c, k, html in cells)
-        + "</tr>\n"
-    )
+    return f"<tr{kept}>" + "".join(f'<td class="{c}" data-key="{k}">{html}</td>' for c, k, html in cells) + "</tr>\n"
 
 
 def _states(entry: TraceEntry) -> str:
@@ -118,9 +110,7 @@ def _terms(entry: TraceEntry, colours: dict[str, str]) -> str:
         for n, v in terms
         if math.isfinite(v)
     )
-    text = ", ".join(
-        f'<span style="color:{colours[n]}">{escape(n)}</span>&nbsp;{cost_text(v)}' for n, v in terms
-    )
+    text = ", ".join(f'<span style="color:{colours[n]}">{escape(n)}</span>&nbsp;{cost_text(v)}' for n, v in terms)
     return f'<div class="bar">{bar}</div>{text}'
 
 

@@ -82,9 +82,7 @@ def _result(
     segments = inputs.scene.segments
     return EditResult(
         image=picture,
-        transforms={
-            s.id: np.array(m, dtype=np.float64) for s, m in zip(segments, outcome.matrices, strict=True)
-        },
+        transforms={s.id: np.array(m, dtype=np.float64) for s, m in zip(segments, outcome.matrices, strict=True)},
         program=tuple(to_text(program)),
         relations=outcome.relations,
         satisfied=all(c.satisfied for c in outcome.constraints),
@@ -123,9 +121,7 @@ def _parse(calls: str | Sequence[str], scene: Scene, author: str | None) -> Prog
     except ProgramError as error:
         if author is None:  # the caller's own program
             raise
-        raise TranslationError(
-            f"translator {author!r} wrote constraints that are not valid: {error}"
-        ) from error
+        raise TranslationError(f"translator {author!r} wrote constraints that are not valid: {error}") from error
 
 
 def _depth_notes(scene: Scene, depth: DepthOrder) -> list[str]:

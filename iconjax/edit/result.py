@@ -80,13 +80,10 @@ class EditResult:
             "translator": self.translator,
             "satisfied": self.satisfied,
             "score": finite(self.score),
-            "transforms": {
-                str(k): [[float(v) for v in row] for row in m] for k, m in self.transforms.items()
-            },
+            "transforms": {str(k): [[float(v) for v in row] for row in m] for k, m in self.transforms.items()},
             "motion_states": {str(k): v for k, v in self.motion_states.items()},
             "relations": [
-                {"a": r.a, "b": r.b, "kind": r.kind, "scope": r.scope, "state": r.state}
-                for r in self.relations
+                {"a": r.a, "b": r.b, "kind": r.kind, "scope": r.scope, "state": r.state} for r in self.relations
             ],
             "constraints": [
                 {

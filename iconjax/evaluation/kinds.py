@@ -65,9 +65,7 @@ def rotation(stage: Stage, *, of: Reference, deg: float, sign: str = "any", tol:
     return _worst_part(stage.shape(of), error, tol, f"turned {deg:g} degrees{way} (within {tol:g})")
 
 
-def touch(
-    stage: Stage, *, a: Reference, b: Reference, gap: float = 7.0, max_overlap: float = 0.25
-) -> Finding:
+def touch(stage: Stage, *, a: Reference, b: Reference, gap: float = 7.0, max_overlap: float = 0.25) -> Finding:
     """Near each other, without lying deep in each other."""
     first, second = stage.shape(a), stage.shape(b)
     distance, share = shapely.distance(first.after, second.after), overlap_share(first.after, second.after)
@@ -160,9 +158,7 @@ def same(stage: Stage, *, of: Reference, tol: float = 6.0) -> Finding:
     return _worst_part(stage.shape(of), lambda p: p.travel, tol, f"stays (within {tol:g})")
 
 
-def rigid(
-    stage: Stage, *, of: Reference, stretch: float = 0.06, may_rotate: bool = False, tol: float = 5.0
-) -> Finding:
+def rigid(stage: Stage, *, of: Reference, stretch: float = 0.06, may_rotate: bool = False, tol: float = 5.0) -> Finding:
     """Every part keeps its size and shape, and turns by at most `tol` degrees unless it may rotate."""
     shape = stage.shape(of)
 
@@ -228,9 +224,7 @@ def _side(stage: Stage, side: Side) -> tuple[float, str]:
     return shape.attribute(side["attr"], old) * scale + offset, text
 
 
-def _in_order(
-    stage: Stage, a: Reference, b: Reference, words: str, axis: str, tol: float, centre: bool
-) -> Finding:
+def _in_order(stage: Stage, a: Reference, b: Reference, words: str, axis: str, tol: float, centre: bool) -> Finding:
     first, second = stage.shape(a), stage.shape(b)
     text = f"{'centre of ' if centre else ''}{first.name} {words} {second.name} (within {tol:g})"
     low, high = (first, second) if words in ("above", "left of") else (second, first)

@@ -92,9 +92,7 @@ def parse_method(name: str) -> Method:
     if base not in STRATEGIES or not set(flags) <= set(FLAGS):
         words = ", ".join(f"{flag} ({meaning})" for flag, meaning in FLAGS.items())
         first, second = ", ".join(BASELINES), ", ".join(STRATEGIES)
-        raise ConfigError(
-            f"unknown method {name!r}; there are {first}, and {second} followed by any of {words}"
-        )
+        raise ConfigError(f"unknown method {name!r}; there are {first}, and {second} followed by any of {words}")
     return Method(
         name=" ".join((base, *(flag for flag in FLAGS if flag in flags))),
         strategy=STRATEGIES[base],

@@ -73,9 +73,7 @@ class CaseRecord:
         return self.goal_met and self.coherent
 
 
-def score(
-    case: EvalCase, method: str, edited: Edited, seconds: float = 0.0, fingerprint: str = ""
-) -> CaseRecord:
+def score(case: EvalCase, method: str, edited: Edited, seconds: float = 0.0, fingerprint: str = "") -> CaseRecord:
     """Score an edit by all metrics.
 
     Raises:

@@ -170,9 +170,7 @@ class Stage:
         raise InputError(f"unknown name {name!r}; the segments are {', '.join(p.name for p in self.parts)}")
 
 
-def unique_names(
-    outlines: Mapping[int, MultiPolygon], labels: Mapping[int, str], width: float
-) -> dict[int, str]:
+def unique_names(outlines: Mapping[int, MultiPolygon], labels: Mapping[int, str], width: float) -> dict[int, str]:
     """Segment id -> unique name, ids ascending; labels that repeat are numbered as in a scene."""
     bounds = {key: outlines[key].bounds for key in sorted(labels)}
     centres = {key: ((b[0] + b[2]) / 2, (b[1] + b[3]) / 2) for key, b in bounds.items()}

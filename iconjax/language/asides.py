@@ -22,7 +22,7 @@ MOST_SUBJECT = 4
 def without_asides(words: Sequence[str], lexicon: Lexicon, names: Names) -> list[str]:
     """The request without its asides; what was left out is noted in `names.notes`."""
     out: list[str] = []
-    i = 0
+    i = _heading(words, lexicon, names)
     while i < len(words):
         end = _aside(words, i, lexicon) if i else None
         end = end or (_relative(words, i, lexicon, names) if i else None)
@@ -35,6 +35,14 @@ def without_asides(words: Sequence[str], lexicon: Lexicon, names: Names) -> list
         out.append(words[i])
         i += 1
     return out
+
+
+def _heading(words: Sequence[str], lexicon: Lexicon, names: Names) -> int:
+    """The end of a heading of one unknown word: "Pour: tip the jug ..."."""
+    if words[1:2] != [":"] or len(words) < 4 or words[0] in lexicon.words or names.hear(words[0]) is not None:
+        return 0
+    names.notes.append(f'"{words[0]}" taken for a heading')
+    return 2
 
 
 def _aside(words: Sequence[str], i: int, lexicon: Lexicon) -> int | None:
@@ -55,9 +63,7 @@ def _clause_end(words: Sequence[str], i: int, lexicon: Lexicon) -> int:
     last = next((j for j in range(i, len(words)) if words[j] in ENDS), len(words))
     for at in range(i, last):
         # "..., as if it fell, and the lamp should stand on the left": what follows may ask for more
-        if words[at] in (",", "and") and any(
-            lexicon.match(words, j, "verb") is not None for j in range(at + 1, last)
-        ):
+        if words[at] in (",", "and") and any(lexicon.match(words, j, "verb") is not None for j in range(at + 1, last)):
             return at
     return last
 

@@ -106,12 +106,7 @@ def _next(
     if measure is not None and measure[1] > reach:
         return "measure", "", measure[0], measure[1]
     phrase = phrases.read(i)
-    if (
-        word in ("that", "which", "who")
-        and out
-        and (verb := lexicon.match(words, i + 1, "verb")) is not None
-        and verb[0].value == "make"
-    ):
+    if out and _connects(words, i, lexicon):
         return "stop", "", None, i + 1
     if phrase is not None and phrase[1] > reach:
         return "phrase", "", phrase[0], phrase[1]
@@ -126,22 +121,22 @@ def _next(
     if word in ("as", "than", "same", "too") and reach <= i + 1:
         return word, "", None, i + 1
     if lexical is not None:
-        entry, end = lexical
-        if entry.value == "around" and words[end : end + 1] in (["the"], ["its"]):
-            spot = phrases.word(end + 1)
-            last = not phrases.word(end + 2) or lexicon.match(words, end + 2, "separator") is not None
-            if last and lexicon.knows(spot, {"joint"}) and names.hear(spot) is None:
-                # "at the hinge": where it is joined, as it turns anyhow
-                names.notes.append(f'"{" ".join(words[i : end + 2])}" taken for where it is joined')
-                return "stop", "", None, end + 2
-        if _idle(entry, end, words, quantities, phrases):
-            return "stop", "", None, end
-        kind = "without" if entry.value == "without" else entry.category
-        return kind, entry.value, entry, end
+        return _meaning(*lexical, words, quantities, phrases)
     if lexicon.knows(word, {"stop"}) or word in ("whole", "entire", "both"):
         stop = lexicon.match(words, i, "stop")
         return "stop", "", None, stop[1] if stop else i + 1
     return "unknown", "", None, i + 1
+
+
+def _meaning(
+    entry: Entry, end: int, words: Sequence[str], quantities: QuantityReader, phrases: PhraseReader
+) -> tuple[str, str, Any, int]:
+    """What a lexical reading comes to where it stands."""
+    if entry.value == "around" and _natural(words, end, phrases.lexicon, phrases.names):
+        return "stop", "", None, end + 2
+    if _idle(entry, end, words, quantities, phrases):
+        return "stop", "", None, end
+    return ("without" if entry.value == "without" else entry.category), entry.value, entry, end
 
 
 def _lexical(
@@ -186,8 +181,10 @@ def _turning(words: Sequence[str], i: int, end: int, lexicon: Lexicon) -> bool:
     verb = lexicon.match(words[:end], i, "verb")
     if verb is None or verb[0].value != "rotate":
         return False
-    angle = any(lexicon.knows(w, {"unit"}) and lexicon.match([w], 0, "unit")[0].value == "deg"  # type: ignore[index]
-                for w in words[end : end + 4])
+    angle = any(
+        lexicon.knows(w, {"unit"}) and lexicon.match([w], 0, "unit")[0].value == "deg"  # type: ignore[index]
+        for w in words[end : end + 4]
+    )
     return angle or any(lexicon.match(words, end, c) is not None for c in ("direction", "sense"))
 
 
@@ -196,9 +193,24 @@ def names_noun(phrases: PhraseReader, i: int) -> bool:
     return phrases.names.hear(phrases.words[i]) is not None
 
 
-def _idle(
-    entry: Entry, end: int, words: Sequence[str], quantities: QuantityReader, phrases: PhraseReader
-) -> bool:
+def _connects(words: Sequence[str], i: int, lexicon: Lexicon) -> bool:
+    """Whether the word at `i` only leads to "is" and the like: "a leg that | is longer"."""
+    verb = lexicon.match(words, i + 1, "verb")
+    return words[i] in ("that", "which", "who") and verb is not None and verb[0].value == "make"
+
+
+def _natural(words: Sequence[str], end: int, lexicon: Lexicon, names: Names) -> bool:
+    """Whether a pivot is named that the picture does not know: "at the hinge", where it turns anyhow."""
+    if words[end : end + 1] not in (["the"], ["its"]) or end + 1 >= len(words):
+        return False
+    spot, last = words[end + 1], end + 2 >= len(words) or lexicon.match(words, end + 2, "separator") is not None
+    if not (last and lexicon.knows(spot, {"joint"}) and names.hear(spot) is None):
+        return False
+    names.notes.append(f'"{spot}" taken for where it is joined')
+    return True
+
+
+def _idle(entry: Entry, end: int, words: Sequence[str], quantities: QuantityReader, phrases: PhraseReader) -> bool:
     """Prepositions that here only introduce an amount or a measure: "in height", "about 20", "at last"."""
     following = phrases.word(end)
     if entry.category == "relation" and entry.value in ("around", "inside", "on", "along"):

@@ -57,6 +57,7 @@ class Collector:
         fixed: names told to stay.
         anchors: what things are placed relative to -> the thing; it stays unless something else moves it.
         themes: everything the request changes.
+        turned: what of it turns.
     """
 
     def __init__(self, shapes: Shapes) -> None:
@@ -67,6 +68,7 @@ class Collector:
         self.fixed: dict[str, None] = {}
         self.anchors: dict[str, str] = {}
         self.themes: dict[str, None] = {}
+        self.turned: set[str] = set()
 
     def add(self, *lines: str) -> None:
         """Add constraints."""
@@ -101,9 +103,7 @@ class Collector:
         lines = []
         for name, axis in self.axis_keeps:
             q, letter = quoted(name), "xy"[axis]
-            spoken = [
-                v for v in self.values if any(f"{a}_{letter}({q})" in v for a in ("center", "min", "max"))
-            ]
+            spoken = [v for v in self.values if any(f"{a}_{letter}({q})" in v for a in ("center", "min", "max"))]
             if not spoken:
                 lines.append(keeps(f"center_{letter}", name))
         return lines
@@ -136,9 +136,7 @@ class Collector:
 def sized(amount: Amount, extent: str) -> str:
     """An amount applied to an extent."""
     if amount.unit == "added":
-        return (
-            call("plus", extent, amount.value) if amount.value >= 0 else call("minus", extent, -amount.value)
-        )
+        return call("plus", extent, amount.value) if amount.value >= 0 else call("minus", extent, -amount.value)
     return extent if math.isclose(amount.value, 1.0) else call("mul", amount.value, extent)
 
 

@@ -108,9 +108,7 @@ class Context:
     def _possessed(self, phrase: Phrase, theme: Sequence[str], relation: str) -> Reference:
         """ "Its roof": of the theme where it has one, else of what was mentioned before."""
         failure: TranslationError | None = None
-        for owners in ([tuple(theme)] if theme else []) + (
-            self.mentions if theme else [*self.themes, *self.mentions]
-        ):
+        for owners in ([tuple(theme)] if theme else []) + (self.mentions if theme else [*self.themes, *self.mentions]):
             try:
                 return Reference(self._choose(phrase, self._named(phrase, owners), theme, relation))
             except TranslationError as error:
@@ -136,9 +134,7 @@ class Context:
                 raise
             return self.names.resolve(phrase, objects)
 
-    def _choose(
-        self, phrase: Phrase, names: tuple[str, ...], theme: Sequence[str], relation: str
-    ) -> tuple[str, ...]:
+    def _choose(self, phrase: Phrase, names: tuple[str, ...], theme: Sequence[str], relation: str) -> tuple[str, ...]:
         if phrase.indefinite is None:
             return names
         left = [n for n in names if n not in self.used and n not in theme]

@@ -13,9 +13,7 @@ from iconjax.language.emit_sizes import resize, scale
 from iconjax.language.emit_turns import hinge, orient, rotate
 from iconjax.language.shapes import Shapes
 
-CHANGING = frozenset(
-    {"scale", "rotate", "move", "place", "orient", "turn", "go", "resize", "swap", "gap", "align"}
-)
+CHANGING = frozenset({"scale", "rotate", "move", "place", "orient", "turn", "go", "resize", "swap", "gap", "align"})
 """Actions whose theme does not stay as it is."""
 
 
@@ -61,6 +59,8 @@ def emit(clauses: Sequence[Clause], shapes: Shapes) -> tuple[str, ...]:
     for clause in clauses:
         if clause.action in CHANGING:
             out.themes.update(dict.fromkeys(clause.theme))
+        if clause.action in ("rotate", "orient", "turn"):
+            out.turned.update(clause.theme)
     for clause in clauses:
         ACTIONS[clause.action](out, clause)
     return out.lines()

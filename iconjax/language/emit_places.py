@@ -46,8 +46,7 @@ def place(out: Collector, clause: Clause) -> None:
     asked = {n for _, n in out.motions}
     # "turn it until it touches ..." asks for no other motion than the one it names
     if not (
-        "follow" in clause.manner
-        and all(any(n == a or out.shapes.part_of(n, a) for a in asked) for n in clause.theme)
+        "follow" in clause.manner and all(any(n == a or out.shapes.part_of(n, a) for a in asked) for n in clause.theme)
     ):
         out.moves("translate", clause)
     kind = clause.relation
@@ -89,9 +88,7 @@ def related(out: Collector, clause: Clause, name: str, other: str) -> None:
         return
     match kind:
         case "on" | "touch" | "reach":
-            if kind == "on":
-                out.add(call("on_top", s, t))
-            elif clause.direction == "down" and not clause.side and comes_down(out, name, other):
+            if kind == "on" or (clause.direction == "down" and not clause.side and comes_down(out, name, other)):
                 out.add(call("on_top", s, t))
             out.add(call("touch", region(clause.theme_side, s), region(clause.side, t)))
         case "above" | "below" | "left_of" | "right_of":
@@ -119,9 +116,7 @@ def grounded(out: Collector, clause: Clause) -> None:
         if clause.theme_side not in (None, "bottom"):
             raise TranslationError(f"the {clause.theme_side} of a thing cannot go to the ground by itself")
         if lowest is None or clause.relation not in ("on", "touch", "reach", "flush"):
-            raise TranslationError(
-                "the ground is not one of the things in the picture; say where to go in another way"
-            )
+            raise TranslationError("the ground is not one of the things in the picture; say where to go in another way")
         out.equal(call("max_y", quoted(name)), call("max_y", quoted(lowest)))
         keep_axis(out, clause, name, lowest)
 

@@ -20,7 +20,7 @@ def scale(out: Collector, clause: Clause) -> None:
 
 
 def extent(out: Collector, clause: Clause, name: str, dim: str) -> None:
-    attribute, s = out.shapes.extent(name, dim), quoted(name)
+    attribute, s = out.shapes.extent(name, dim, name in out.turned), quoted(name)
     now, amount = call(attribute, s), clause.amount or Amount(1.0, "factor")
     if amount.unit == "length":
         return out.equal(now, amount.value)

@@ -76,9 +76,7 @@ def hinge(out: Collector, clause: Clause) -> None:
         for pivot in clause.reference:
             if clause.side is None and out.shapes.part_of(pivot, name):
                 edge = place_in(out, pivot, name)
-                side = {"max_y": "bottom", "min_y": "top", "min_x": "left", "max_x": "right"}.get(
-                    edge[0], "middle"
-                )
+                side = {"max_y": "bottom", "min_y": "top", "min_x": "left", "max_x": "right"}.get(edge[0], "middle")
                 pin(out, name, *point(out, pivot, side))
             elif clause.side is None:
                 out.add(call("hinge", quoted(name), quoted(pivot)))

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from iconjax.errors import TranslationError
 from iconjax.language.chunks import Chunk
 from iconjax.language.clauses import Amount, Quantity
-from iconjax.language.lexicon import Entry
+from iconjax.language.lexicon import Entry, lexicon
 from iconjax.language.names import Phrase
 
 
@@ -95,6 +95,7 @@ class SlotFiller:
             else:
                 getattr(self, f"_on_{item.kind}", self._mark)(item)
         slots = self.slots
+        self._particles()
         self._cut_off()
         if isinstance(self.waiting, Relation) and not self.waiting.reference:
             self._dangling(self.waiting)
@@ -110,6 +111,18 @@ class SlotFiller:
         for phrase in (*owners, *(p for c in self.slots.changes for p in c.reference)):
             if phrase.loose:
                 raise TranslationError(f'"{phrase.loose}" is not one of the things in the picture')
+
+    def _particles(self) -> None:
+        """ "Stand the ladder | up": a verb whose second word comes behind what it is about."""
+        slots = self.slots
+        for shift in [s for s in slots.shifts if s.amount is None and s.direction in ("up", "down")]:
+            for at, verb in enumerate(slots.verbs):
+                got = lexicon().match([str(verb.info["base"]), shift.direction], 0, "verb")
+                if got is not None and got[1] == 2 and got[0].value not in (verb.value, "move"):
+                    slots.verbs[at] = got[0]
+                    slots.shifts.remove(shift)
+                    self.last = None if self.last is shift else self.last
+                    return
 
     def _cut_off(self) -> None:
         """ "Cut a third off the pole": what is cut is the theme."""
@@ -207,6 +220,11 @@ class SlotFiller:
     # ---- changes of size ----
 
     def _change(self, change: Change) -> None:
+        last = self.last
+        finer = isinstance(last, Change) and last.sign and last.dim == change.dim and not last.reference
+        if finer and change.sign == 0 and not change.same and self.slots.amount is None:
+            self.last.ambiguous = ""  # type: ignore[union-attr]
+            return  # "20 % lower in height"
         if self.slots.amount is not None:
             change.amount, self.slots.amount = self.slots.amount, None
         elif (
@@ -241,9 +259,7 @@ class SlotFiller:
         same = self.after_as or degree == "plain"
         if not same and self.slots.amount is not None and self.slots.amount.mode == "to":
             self.slots.amount = replace(self.slots.amount, mode="")  # "has to be 15 % wider"
-        change = Change(
-            item.value, sign, same=same, ambiguous=item.text if item.text in ("higher", "lower") else ""
-        )
+        change = Change(item.value, sign, same=same, ambiguous=item.text if item.text in ("higher", "lower") else "")
         if (
             isinstance(self.last, Change)
             and self.last.sign == 0

@@ -111,9 +111,7 @@ def _verb_forms(phrase: str) -> Iterator[tuple[str, bool]]:
     word, _, rest = phrase.partition(" ")
     tail = f" {rest}" if rest else ""
     stem = word[:-1] if word.endswith("e") and not word.endswith("ee") else word
-    short = (
-        len(word) >= 3 and word[-1] not in VOWELS + "wxy" and word[-2] in VOWELS and word[-3] not in VOWELS
-    )
+    short = len(word) >= 3 and word[-1] not in VOWELS + "wxy" and word[-2] in VOWELS and word[-3] not in VOWELS
     doubled = word + word[-1] if short and (len(word) <= 4 or word == "transfer") else stem
     yield phrase, False
     yield word + ("es" if word.endswith(("sh", "ch", "x", "ss", "o")) else "s") + tail, False

@@ -14,6 +14,8 @@ from iconjax.scene.types import Scene
 
 ADJECTIVAL = ("ed", "ish", "ous", "ive", "ful", "less", "ical", "most")
 """Endings of adjectives: such words describe, and name nothing."""
+THINGS = frozenset({"loose", "joint", "partlike", "kind"})
+"""Categories of words that are names of things only, and mean nothing where the picture has no such thing."""
 GEOMETRIC = {
     "left": (0, 1),
     "right": (0, -1),
@@ -104,6 +106,9 @@ class Names:
             if s.part is not None
         ]
         self.vocabulary = frozenset(w for e in (*self.objects, *self.parts) for w in e.words)
+        self._things = frozenset(
+            w[0] for w, e in lexicon.phrases.items() if len(w) == 1 and {x.category for x in e} <= THINGS
+        )
         self._heard: dict[str, tuple[str, ...] | None] = {}
 
     def _words(self, label: str) -> frozenset[str]:
@@ -122,8 +127,12 @@ class Names:
             if form in self.vocabulary:
                 return (form,)
         for cut in range(3, len(singular) - 2):
-            if {singular[:cut], singular[cut:]} <= self.vocabulary:
-                return (singular[:cut], singular[cut:])
+            both = {singular[:cut], singular[cut:]}
+            if both <= self.vocabulary:
+                if any(both <= e.words for e in (*self.objects, *self.parts)):
+                    return (singular[:cut], singular[cut:])
+                self.notes.append(f'"{word}" read as "{singular[cut:]}"')
+                return (singular[cut:],)
         if self.lexicon.knows(word, {"stop", "verb", "relation", "mode", "number", "unit", "pronoun"}):
             return None
         near = mend(singular, self.vocabulary) if word not in self.lexicon.words else None
@@ -132,6 +141,10 @@ class Names:
         if near is None:
             same = self.lexicon.synonyms.get(singular, frozenset()) & self.vocabulary
             near = next(iter(same)) if len(same) == 1 else None
+        if near is None and len(singular) > 2 and word not in self.lexicon.words - self._things:
+            # "the cup" of a picture with a teacup
+            tails = [v for v in self.vocabulary if v.endswith(singular) and len(v) > len(singular) + 2]
+            near = tails[0] if len(tails) == 1 else None
         if near is not None:
             self.notes.append(f'"{word}" read as "{near}"')
             return (near,)
@@ -227,11 +240,7 @@ class Names:
     def _means(self, word: str, modifier: str) -> bool:
         entries = self.lexicon.phrases.get((word,), ())
         ordinals = any(e.category in {"ordinal", "number"} and e.value == modifier for e in entries)
-        return (
-            word == modifier
-            or ordinals
-            or any(e.category == "modifier" and e.value == modifier for e in entries)
-        )
+        return word == modifier or ordinals or any(e.category == "modifier" and e.value == modifier for e in entries)
 
     def _narrow(self, found: list[Entity], phrase: Phrase) -> list[Entity]:
         nouns = frozenset(phrase.nouns)
@@ -243,11 +252,7 @@ class Names:
             else:
                 unsaid.append(modifier)
         if phrase.ordinal is not None:
-            said = (
-                []
-                if phrase.ordinal_from
-                else [e for e in found if self._said(e, {str(phrase.ordinal)}, nouns)]
-            )
+            said = [] if phrase.ordinal_from else [e for e in found if self._said(e, {str(phrase.ordinal)}, nouns)]
             found = said or self._nth(found, phrase)
         for modifier in unsaid:
             found = self._extreme(found, modifier, phrase)

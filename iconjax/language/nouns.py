@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from iconjax.language.lexicon import Lexicon
-from iconjax.language.names import Names, Phrase
+from iconjax.language.names import THINGS, Names, Phrase
 
 GRAMMAR = frozenset(
     [
@@ -120,16 +120,16 @@ class NounReader:
     def _goes_on(self, nouns: Sequence[str], i: int) -> bool:
         """Whether the word at `i`, though it has other uses, completes a name: "the table | top"."""
         heard = self.names.hear(self.word(i))
-        if heard is None or self.lexicon.knows(
-            self.word(i), {"direction", "adjective", "relation", "mode", "stop"}
-        ):
+        if heard is None or self.lexicon.knows(self.word(i), {"direction", "adjective", "relation", "mode", "stop"}):
             return False
         return any({*nouns, *heard} <= e.words and set(heard) <= e.part_words for e in self.names.parts)
 
     def strange(self, i: int) -> tuple[str, ...]:
         """The word at `i` where it means nothing at all here."""
         word = self.word(i)
-        known = word in self.lexicon.words or self.names.hear(word) is not None
+        meanings = {e.category for e in self.lexicon.phrases.get((word,), ())}
+        grammar = bool(meanings - THINGS) or (not meanings and word in self.lexicon.words)
+        known = grammar or self.names.hear(word) is not None
         return () if known or not word.isalpha() else (word,)
 
     def _elliptical(self, i: int) -> bool:
@@ -139,9 +139,7 @@ class NounReader:
         if not self.lexicon.knows(self.word(i), {"ordinal", "modifier"}) or self.word(i + 1) != "and":
             return False
         following = i + 3 if self.word(i + 2) == "the" else i + 2
-        return self.lexicon.knows(self.word(following), {"ordinal", "modifier"}) and self.noun_at(
-            following + 1, True
-        )
+        return self.lexicon.knows(self.word(following), {"ordinal", "modifier"}) and self.noun_at(following + 1, True)
 
     def _premodifier(self, i: int) -> tuple[str, str] | None:
         word = self.word(i)
@@ -160,9 +158,7 @@ class NounReader:
 
     def noun_follows(self, i: int) -> bool:
         """Whether, after more modifiers, a noun comes."""
-        while self.lexicon.knows(self.word(i), {"modifier", "ordinal", "descriptor"}) and not self.noun_at(
-            i, False
-        ):
+        while self.lexicon.knows(self.word(i), {"modifier", "ordinal", "descriptor"}) and not self.noun_at(i, False):
             i += 1
         return self.noun_at(i, True)
 

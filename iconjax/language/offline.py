@@ -55,16 +55,13 @@ class OfflineTranslator:
             _check_guesses(clauses)
             program = emit(clauses, names.shapes)
             if not any(
-                c.action not in ("keep", "stay", "topic", "together", "hinge", "go", "turn", "resize")
-                for c in clauses
+                c.action not in ("keep", "stay", "topic", "together", "hinge", "go", "turn", "resize") for c in clauses
             ):
                 raise TranslationError(
                     "it says what should stay or which way to change, and not what should change by how much"
                 )
         except TranslationError as error:
-            known = (
-                [c.text for c in chunks if c.kind == "phrase"] if not understood and unknown else understood
-            )
+            known = [c.text for c in chunks if c.kind == "phrase"] if not understood and unknown else understood
             raise TranslationError(refusal(str(error), known, unknown, scene.names, scene.objects)) from None
         notes = tuple(dict.fromkeys(names.notes))
         return Translation(program, self.name, (*(describe(c) for c in clauses), *notes))
@@ -82,9 +79,7 @@ class OfflineTranslator:
             out.append(word)
         return without_asides(out, words_of, names)
 
-    def _read(
-        self, chunks: Sequence[Chunk], words: Sequence[str], names: Names, understood: list[str]
-    ) -> list[Clause]:
+    def _read(self, chunks: Sequence[Chunk], words: Sequence[str], names: Names, understood: list[str]) -> list[Clause]:
         """The first way of joining things with "and" that gives every piece a place."""
         failure: TranslationError | None = None
         for items in _groupings(chunks):
@@ -198,14 +193,11 @@ def _splits(items: Sequence[Item], at: int) -> bool:
     item = items[at]
     assert isinstance(item, Chunk)
     if item.kind == "without":
-        return True
+        # "while the pot does not change": the thing is that of the denial
+        return not (_kind(items, at - 1) == "phrase" and (at == 1 or _is_separator(items[at - 2])))
     if item.kind == "mode":
         following = items[at + 1] if at + 1 < len(items) else None
-        doing = (
-            isinstance(following, Chunk)
-            and following.kind == "verb"
-            and bool(following.data.info["participle"])
-        )
+        doing = isinstance(following, Chunk) and following.kind == "verb" and bool(following.data.info["participle"])
         return item.text.startswith("until") or (item.text == "by" and doing)
     if item.kind == "verb":
         # "..., keeping its base in place" also without a comma

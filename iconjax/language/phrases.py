@@ -21,9 +21,7 @@ class PhraseReader(NounReader):
         if got is None:
             return None
         phrase, i = got
-        while self.word(i) == "'s" or (
-            phrase.pronoun is None and phrase.side is None and self.word(i) == "of"
-        ):
+        while self.word(i) == "'s" or (phrase.pronoun is None and phrase.side is None and self.word(i) == "of"):
             if self.word(i) == "'s":
                 after = self._possessed(i + 1, phrase)
                 if after is None and phrase.nouns and self.word(i + 1) in ("", ".", ",", ";", "and", "!"):
@@ -48,8 +46,9 @@ class PhraseReader(NounReader):
         while len(out) < 2:
             word = self.word(i + len(out))
             kinds = {e.category for e in self.lexicon.phrases.get((word,), ())}
-            doing = bool(kinds) and kinds <= {"verb", "kind", "posture"}
-            if self.strange(i + len(out)) or (doing and not out and self.names.hear(word) is None):
+            doing = bool(kinds) and kinds <= {"verb", "kind"}
+            doing = doing and (not out or "verb" not in kinds)
+            if self.strange(i + len(out)) or (doing and self.names.hear(word) is None):
                 out = (*out, word)
             else:
                 break
@@ -66,6 +65,16 @@ class PhraseReader(NounReader):
         if whole is None or whole[0].pronoun or whole[0].special or whole[0].side:
             return None
         return with_(whole[0], loose=spot), whole[1]
+
+    def _of_stranger(self, i: int) -> tuple[Phrase, int] | None:
+        """ "(the) barrier's arm" where nothing is called a barrier."""
+        foreign = self._stranger(i)
+        if not foreign or self.word(i + len(foreign)) != "'s":
+            return None
+        found = self.body(i + len(foreign) + 1, True)
+        if found is None or found[0].ignored:
+            return None
+        return with_(found[0], ignored=foreign, foreign=True), found[1]
 
     def _core(self, i: int) -> tuple[Phrase, int] | None:
         start, plural, announced, quantified = i, False, False, False
@@ -86,14 +95,8 @@ class PhraseReader(NounReader):
         indefinite = None
         if self.word(i) in ("one", "another") and not announced and self.noun_follows(i + 1):
             indefinite, announced, i = "one", True, i + 1
-        if announced and owner is None and not quantified and (loose := self._loose(i)) is not None:
-            return loose
-        foreign = self._stranger(i) if announced and owner is None and self.word(start) == "the" else ()
-        if foreign and self.word(i + len(foreign)) == "'s":
-            # "the barrier's arm" where no barrier has a name
-            found = self.body(i + len(foreign) + 1, True)
-            if found is not None and not found[0].ignored:
-                return with_(found[0], ignored=foreign, foreign=True), found[1]
+        if self.word(start) in DETERMINERS and (odd := self._loose(i) or self._of_stranger(i)) is not None:
+            return odd
         side = self._side(i, announced, owner)
         if side is not None:
             return side
@@ -102,18 +105,21 @@ class PhraseReader(NounReader):
             phrase, i = found
             phrase = with_(phrase, indefinite=phrase.indefinite or indefinite)
             return with_(phrase, owner=owner, plural=phrase.plural or plural, count=count), i
-        if quantified and (self.word(i) in ("them", "it") or (i > start + 0 and not announced)):
+        alone = owner is None and quant is not None and i == quant[1]
+        if quantified and (self.word(i) in ("them", "it") or not announced):
             return Phrase("them", pronoun="them", plural=True), i + 1
-        if quantified and owner is None and i == quant[1] and self.word(start) in ("both", "each", "all"):  # type: ignore[index]
+        if alone and self.word(start) in ("both", "each", "all"):
             return Phrase(self.word(start), pronoun="them", plural=True), i
-        if self.word(start) in ("that", "those") and self.word(start + 1) == "of":
-            return Phrase(self.word(start)), start + 1  # "that of the king": the same part, of another
+        return self._pronoun_at(start)
+
+    def _pronoun_at(self, start: int) -> tuple[Phrase, int] | None:
+        word = self.word(start)
+        if word in ("that", "those") and self.word(start + 1) == "of":
+            return Phrase(word), start + 1  # "that of the king": the same part, of another
         pronoun = self.lexicon.match(self.words, start, "pronoun")
-        if pronoun is not None and pronoun[0].value in ("it", "them"):
-            return Phrase(
-                self.word(start), pronoun=pronoun[0].value, plural=pronoun[0].value == "them"
-            ), pronoun[1]
-        return None
+        if pronoun is None or pronoun[0].value not in ("it", "them"):
+            return None
+        return Phrase(word, pronoun=pronoun[0].value, plural=pronoun[0].value == "them"), pronoun[1]
 
     def _side(self, i: int, announced: bool, owner: Phrase | None) -> tuple[Phrase, int] | None:
         """A side of something: "the left end of the belt", "its bottom", "the top right corner"."""
@@ -151,6 +157,4 @@ class PhraseReader(NounReader):
             return False
         heard = [h for w in words for h in self.names.hear(w) or ("",)]
         objects = {w for e in self.names.objects for w in e.words} & set(owner.nouns)
-        return any(
-            set(heard) <= e.part_words and (not objects or objects & e.object_words) for e in self.names.parts
-        )
+        return any(set(heard) <= e.part_words and (not objects or objects & e.object_words) for e in self.names.parts)

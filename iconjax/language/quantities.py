@@ -115,9 +115,7 @@ class QuantityReader:
         if got is None or self.phrases.word(start) == "the":
             return None
         bare = start == i and self.phrases.word(i) not in ("half", "quarter")
-        if bare or (
-            self.lexicon.knows(self.words[i], {"ordinal"}) and self.phrases.read(i) is not None and start == i
-        ):
+        if bare or (self.lexicon.knows(self.words[i], {"ordinal"}) and self.phrases.read(i) is not None and start == i):
             return None
         value, i = top / float(got[0].value), i + 1
         if self.words[i : i + 2] == ["again", "as"]:

@@ -13,19 +13,12 @@ from iconjax.language.names import Reference
 
 def negated(context: Context, slots: Slots, theme: Reference) -> Iterator[Clause]:
     kinds = slots.kinds()
-    if slots.relations:
-        for relation in slots.relations:
-            target = context.reference(relation.reference, theme.names)
-            if relation.kind == "outside" and target.names == ("@ground",):
-                yield Clause("keep", theme.names, dimension="bottom")  # "without lifting it off the ground"
-                continue
-            if relation.kind not in ("touch", "overlap"):
-                raise TranslationError(f'"not {relation.kind}" is not understood')
-            shapes = context.names.shapes
-            if all(any(shapes.part_of(t, n) for n in theme.names) for t in target.names):
-                yield Clause("keep", target.names, dimension="size")
-            else:
-                yield Clause("place", theme.names, relation="outside", reference=target.names)
+    if "part" in kinds and len(slots.relations) == 1 and slots.relations[0].kind in ("around", "outside"):
+        # "without detaching it from the mast"
+        target = context.reference(slots.relations[0].reference, theme.names)
+        yield Clause("keep", theme.names, relation="touch", reference=target.names)
+    elif slots.relations:
+        yield from _not_related(context, slots, theme)
     elif slots.changes:
         for change in slots.changes:
             yield Clause("keep", theme.names, dimension=change.dim)
@@ -35,11 +28,7 @@ def negated(context: Context, slots: Slots, theme: Reference) -> Iterator[Clause
         yield Clause("keep", theme.names, dimension="bottom")
     elif "rotate" in kinds:
         yield Clause("keep", theme.names, dimension="rotation")
-    elif (
-        "scale" in kinds
-        and slots.theme
-        and slots.verbs[0].info.get("base") in ("scale", "resize", "stretch", "size")
-    ):
+    elif "scale" in kinds and slots.theme and slots.verbs[0].info.get("base") in ("scale", "resize", "stretch", "size"):
         yield Clause("keep", theme.names, dimension="size")
     elif slots.theme and kinds & {"move", "scale"}:
         yield still(context, theme)
@@ -47,6 +36,21 @@ def negated(context: Context, slots: Slots, theme: Reference) -> Iterator[Clause
         yield Clause("keep", theme.names, dimension="place")
     else:
         raise TranslationError("what should not happen is not understood")
+
+
+def _not_related(context: Context, slots: Slots, theme: Reference) -> Iterator[Clause]:
+    for relation in slots.relations:
+        target = context.reference(relation.reference, theme.names)
+        if relation.kind == "outside" and target.names == ("@ground",):
+            yield Clause("keep", theme.names, dimension="bottom")  # "without lifting it off the ground"
+            continue
+        if relation.kind not in ("touch", "overlap"):
+            raise TranslationError(f'"not {relation.kind}" is not understood')
+        shapes = context.names.shapes
+        if all(any(shapes.part_of(t, n) for n in theme.names) for t in target.names):
+            yield Clause("keep", target.names, dimension="size")
+        else:
+            yield Clause("place", theme.names, relation="outside", reference=target.names)
 
 
 def still(context: Context, theme: Reference) -> Clause:

@@ -43,9 +43,7 @@ def gap(context: Context, slots: Slots, theme: Reference) -> Clause:
         final = amount
     elif amount.unit == "px":
         final = (
-            Amount(amount.value, "length")
-            if not sign or amount.mode == "to"
-            else Amount(sign * amount.value, "added")
+            Amount(amount.value, "length") if not sign or amount.mode == "to" else Amount(sign * amount.value, "added")
         )
     else:
         final = factor(amount, sign, Change("gap"), False)
@@ -62,7 +60,7 @@ def follow(context: Context, slots: Slots, theme: Reference) -> Iterator[Clause]
     target = target or next((m for m in context.themes if not set(m) & set(theme.names)), ())
     shapes = context.names.shapes
     pairs = [(n, t) for n in theme.names for t in target if shapes.lies(n, "touch", t)]
-    if {n for n, _ in pairs} != set(theme.names):
+    if {n for n, _ in pairs} != set(theme.names) or set(target) & set(theme.names):
         raise TranslationError(f"what {listed(theme.names)} should go with is not clear")
     yield Clause("go", theme.names)
     for name, other in pairs:
@@ -75,8 +73,6 @@ def align(context: Context, slots: Slots, theme: Reference) -> Clause:
         theme = Reference(names, theme.side)
     dims = {c.dim for c in slots.changes}
     if len(theme.names) < 2 or (theme.side is None and len(dims) != 1):
-        raise TranslationError(
-            'align what with what, and on which side? say e.g. "align the tops of A and B"'
-        )
+        raise TranslationError('align what with what, and on which side? say e.g. "align the tops of A and B"')
     side = theme.side or {"vert": "vertical", "hori": "horizontal"}.get(dims.pop(), "")
     return Clause("align", theme.names, side=side)

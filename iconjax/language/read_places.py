@@ -39,7 +39,9 @@ def move(context: Context, slots: Slots, theme: Reference, relations: list[Relat
         yield Clause("go", names)
         if len(names) > 1 and "together" in slots.marks:
             yield Clause("together", names)
-    elif not (shifts or targets or centering or "squarely" in slots.marks or ("rotate" in slots.kinds() and slots.connector)):
+    elif not (
+        shifts or targets or centering or "squarely" in slots.marks or ("rotate" in slots.kinds() and slots.connector)
+    ):
         raise TranslationError(
             f"where {listed(names)} should go is not said: add a direction and a distance, or a place"
         )
@@ -53,15 +55,11 @@ def _shifts(slots: Slots, names: tuple[str, ...], relations: list[Relation]) -> 
         shifts = [Shift(lifting, slots.amount), *shifts]
         slots.amount = None
     if slots.amount is not None and not any(r.kind in MEASURED for r in relations):
-        raise TranslationError(
-            f"which way {listed(names)} should move is not said: add left, right, up or down"
-        )
+        raise TranslationError(f"which way {listed(names)} should move is not said: add left, right, up or down")
     return shifts
 
 
-def _way(
-    context: Context, slots: Slots, names: tuple[str, ...], shifts: list[Shift], relations: list[Relation]
-) -> str:
+def _way(context: Context, slots: Slots, names: tuple[str, ...], shifts: list[Shift], relations: list[Relation]) -> str:
     """The direction that a move to a place keeps to, or "": of the clause, a rail, or the clause before."""
     direction = shifts[0].direction if len(shifts) == 1 else ""
     for relation in relations:
@@ -91,13 +89,7 @@ def moved(
     whose: tuple[str, ...] = ()
     if amount is not None and amount.mode == "to":
         vertical = shift.direction in ("up", "down")
-        if (
-            amount.of is None
-            or amount.of.dim != "vert"
-            or not vertical
-            or is_own(amount.of)
-            or amount.value != 1.0
-        ):
+        if amount.of is None or amount.of.dim != "vert" or not vertical or is_own(amount.of) or amount.value != 1.0:
             raise TranslationError("move by how much? the request says to where, as a length")
         level = context.reference(amount.of.owners, names).names
         return Clause("place", names, relation="same_place", reference=level)
@@ -123,9 +115,7 @@ def centred(context: Context, targets: list[Relation], theme: Reference, slots: 
             return
         others = [m for m in context.mentions if not set(m) & set(theme.names)]
         last = others[0] if others and not slots.theme else ("canvas",)
-        yield Clause(
-            "place", theme.names, relation="centered_h" if slots.connector else "centered", reference=last
-        )
+        yield Clause("place", theme.names, relation="centered_h" if slots.connector else "centered", reference=last)
     for relation in targets:
         if relation.kind in ("on", "above", "below", "centered_h"):
             target = context.reference(relation.reference, theme.names)
@@ -145,9 +135,7 @@ def related(context: Context, relation: Relation, theme: Reference, direction: s
         ):
             return Clause("topic", names)  # what touches what was said before
         if len(names) == 2:
-            return Clause(
-                "place", names[:1], relation=relation.kind, reference=names[1:], theme_side=theme.side
-            )
+            return Clause("place", names[:1], relation=relation.kind, reference=names[1:], theme_side=theme.side)
         target = _the_other(context, relation, names, slots)
     else:
         target = context.reference(relation.reference, names)
@@ -156,14 +144,7 @@ def related(context: Context, relation: Relation, theme: Reference, direction: s
     manner = manner | {"to"} if relation.kind == "to" else manner
     if relation.kind == "to" and target.names == ("canvas",):
         kind = "flush"
-    whose = relation.reference[0].owner if relation.reference else None
-    if kind in ("on", "touch") and target.side in ("left", "right") and whose is not None and whose.pronoun:
-        # "next to the oven, on its left side"
-        if relation.reference[0].text.endswith("side"):
-            kind, target = f"{target.side}_of", Reference(target.names)
-    vertical = direction in ("up", "down")
-    if kind == "flush" and vertical and not target.side and not theme.side and target.names != ("canvas",):
-        kind = "same_place"  # "raise it until it is level with the other"
+    kind, target = _sided(kind, relation, target, theme, direction)
     if relation.kind == "around":
         raise TranslationError('"around" does not say a place')
     return Clause(
@@ -177,6 +158,22 @@ def related(context: Context, relation: Relation, theme: Reference, direction: s
         theme_side=theme.side,
         manner=manner,
     )
+
+
+def _sided(kind: str, relation: Relation, target: Reference, theme: Reference, direction: str) -> tuple[str, Reference]:
+    """What a relation to a side, or to no side where one is due, comes to."""
+    whose = relation.reference[0].owner if relation.reference else None
+    own = whose is not None and whose.pronoun and relation.reference[0].text.endswith("side")
+    if kind in ("on", "touch") and target.side in ("left", "right") and own:
+        return f"{target.side}_of", Reference(target.names)  # "next to the oven, on its left side"
+    if kind == "on" and target.side in ("left", "right") and "side" in relation.reference[0].text.split():
+        raise TranslationError(
+            f"beside {listed(target.names)}, or on one half of it? say left of it or at its left end"
+        )
+    sideless = not target.side and not theme.side and target.names != ("canvas",)
+    if kind == "flush" and direction in ("up", "down") and sideless:
+        return "same_place", target  # "raise it until it is level with the other"
+    return kind, target
 
 
 def _the_other(context: Context, relation: Relation, names: tuple[str, ...], slots: Slots) -> Reference:

@@ -56,11 +56,7 @@ def pin(context: Context, slots: Slots, info: dict[str, object]) -> str:
         elif shift.amount is not None:
             slots.amount = slots.amount or shift.amount
         slots.shifts = []
-    if (
-        "down to" in slots.marks
-        and int(str(info.get("sign", 0))) < 0
-        and "burn" in str(info.get("forms", ""))
-    ):
+    if "down to" in slots.marks and int(str(info.get("sign", 0))) < 0 and "burn" in str(info.get("forms", "")):
         base = str(info.get("base", ""))
         if base in ("burn", "burn down", "melt", "melt down", "cut", "cut down", "chop", "saw"):
             side = side or "bottom"
@@ -86,9 +82,7 @@ def _scaled_up_or_down(slots: Slots, info: dict[str, object]) -> None:
             slots.amount = slots.amount or shift.amount
 
 
-def default_dim(
-    context: Context, slots: Slots, theme: Reference, info: dict[str, object], pinned: str
-) -> str:
+def default_dim(context: Context, slots: Slots, theme: Reference, info: dict[str, object], pinned: str) -> str:
     amount = slots.amount
     if amount is not None and amount.of is not None and amount.of.dim not in ("gap",) and not info.get("dim"):
         return amount.of.dim
@@ -98,12 +92,14 @@ def default_dim(
         return "vert" if pinned in ("top", "bottom") else "hori"
     if "off" in slots.marks:
         return "length"
-    if info.get("factor") == 0.5 and slots.theme and all(context.names.shapes.slender(n) for n in theme.names):
+    cuts = info.get("factor") == 0.5 or info.get("cuts")
+    slender = bool(slots.theme) and all(context.names.shapes.slender(n) for n in theme.names)
+    if cuts and slender and (amount is None or amount.of is None):
         return "length"
+    if info.get("stretch") and followed(slots):
+        return "size"
     if info.get("stretch"):
-        raise TranslationError(
-            "stretch or squeeze which way? say vertically, horizontally, or in height or width"
-        )
+        raise TranslationError("stretch or squeeze which way? say vertically, horizontally, or in height or width")
     return "size"
 
 
@@ -114,9 +110,7 @@ def changed(
     amount, sign = change.amount, change.sign or int(str(info.get("sign", 0)))
     dim = str(info["dim"]) if change.sign == 0 and info.get("dim") and change.dim == "size" else change.dim
     if dim == "proportions":
-        raise TranslationError(
-            "how the proportions should change is not understood: name the height or the width"
-        )
+        raise TranslationError("how the proportions should change is not understood: name the height or the width")
     if "factor" in info:
         if amount is not None:
             raise TranslationError(f'"{info["base"]}" says how much, and the request names another amount')
@@ -127,16 +121,14 @@ def changed(
         return
     if amount is None and not reference:
         if followed(slots) or slots.connector == "by":
-            whole = dim == "size" and not pinned and not slots.changes
+            whole = dim == "size" and not pinned and not slots.changes and not info.get("stretch")
             yield Clause("resize", theme.names, manner=frozenset({"uniform"}) if whole else frozenset())
             return
         amount = vague(sign, change, theme, slots)
     manner = {f"pin {pinned}"} if pinned else set()
     manner |= {"without motion"} if slots.follows == "by" else set()
     size = factor(amount, sign, change, bool(reference))
-    yield Clause(
-        "scale", theme.names, size, dim, reference=reference, manner=frozenset(manner), side=reference_dim
-    )
+    yield Clause("scale", theme.names, size, dim, reference=reference, manner=frozenset(manner), side=reference_dim)
 
 
 def _compared(

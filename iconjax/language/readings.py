@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from iconjax.errors import TranslationError
 from iconjax.language.clauses import Clause
@@ -52,7 +52,8 @@ class Reader:
             raise TranslationError(f"what should happen to {listed(theme.names)} is not understood")
         if slots.connector in ("so", "so that", "such that") and slots.theme and context.themes:
             guessed = all(c.amount is not None and c.amount.mode == "unsaid" for c in clauses)
-            if guessed and not set(theme.names) & set(context.themes[0]):
+            other = theme.side is None and not set(theme.names) & {*context.themes[0], "@theme", "@ground"}
+            if guessed and other:
                 clauses = [Clause("topic", theme.names)]  # what follows from the change before
         context.remember(theme.names, [c.reference for c in clauses])
         if slots.verbs:
@@ -110,12 +111,7 @@ class Reader:
             and not slots.shifts
         ):
             slots.changes, slots.amount = [Change(amount.of.dim, 0, amount, same=True)], None
-        elif (
-            kinds <= {"make"}
-            and amount is not None
-            and amount.unit == "times"
-            and not self._says_place(slots)
-        ):
+        elif kinds <= {"make"} and amount is not None and amount.unit == "times" and not self._says_place(slots):
             slots.changes, slots.amount = [Change("size", 0, amount, same=True)], None
         if theme.side is not None and (slots.changes or kinds & {"scale", "rotate"}):
             raise TranslationError(f"the {theme.side} of {listed(theme.names)} cannot change by itself")
@@ -126,9 +122,7 @@ class Reader:
         if slots.changes or "scale" in kinds:
             yield from scale(self.context, slots, theme)
             found = True
-        relations = [
-            r for r in slots.relations if r.kind not in (*TURNED, "around") and not sense_of(r, slots)
-        ]
+        relations = [r for r in slots.relations if r.kind not in (*TURNED, "around") and not sense_of(r, slots)]
         verbs = any(v.value == "move" for v in slots.verbs)
         if relations or slots.shifts or verbs or kinds & {"center"}:
             idle = (
@@ -145,9 +139,7 @@ class Reader:
         """ "Higher" and "lower" say a size with a percentage, and a place with a verb of motion."""
         for change in [c for c in slots.changes if c.ambiguous]:
             relative = (
-                change.amount is not None
-                and change.amount.unit in ("ratio", "times")
-                and not change.amount.vague
+                change.amount is not None and change.amount.unit in ("ratio", "times") and not change.amount.vague
             )
             if "move" in kinds or not relative:
                 if "move" not in kinds:
@@ -179,36 +171,22 @@ class Reader:
                 continue
             target = self.context.reference(relation.reference, theme.names).names
             part_of_theme = all(any(shapes.part_of(t, n) for n in theme.names) for t in target)
-            standing = relation.kind in TELLING and resizes and not slots.kinds() & {"move"}
-            part = all(any(shapes.part_of(n, t) for t in target) for n in previous)
-            if standing and len(previous) == len(target) == 1:
-                near = relation.kind in ("on", "inside") and shapes.lies(previous[0], "touch", target[0])
-                if part or near or shapes.lies(previous[0], relation.kind, target[0]):
-                    slots.relations.remove(relation)  # "halve the post under the sign"
-                    previous = target
-                    continue
-            if relation.kind == "around":
+            if resizes and self._only_tells(slots, relation, previous, target):
+                slots.relations.remove(relation)  # "halve the post under the sign"
+                previous = target
+                continue
+            if relation.kind in ("around", "bears"):
                 # "the girder hanging from it"
-                if not (len(previous) == len(target) == 1 and shapes.lies(previous[0], "touch", target[0])):
+                if not self._already(previous, "touch", target):
                     raise TranslationError(f'what "{listed(target)}" has to do with it is not understood')
                 slots.relations.remove(relation)
                 continue
             if relation.kind in ("left_side", "right_side"):
-                x0, _, x1, _ = shapes.box(target[0])
-                within = any(x0 < shapes.centre(n)[0] < x1 for n in theme.names)
-                if within and target[0] != "canvas":
-                    raise TranslationError(
-                        f"beside {listed(target)}, or on one half of it? say left of it or at its left end"
-                    )
-                relation.kind = relation.kind.replace("side", "of")
+                self._beside_or_on(relation, theme, target)
             if relation.kind in ("on", "inside") and part_of_theme:
                 slots.relations.remove(relation)
                 yield Clause("stay", target)
-            elif (
-                relation.kind in ("on", "inside")
-                and (index > 0 or goals)
-                and len(previous) == len(target) == 1
-            ):
+            elif relation.kind in ("on", "inside") and (index > 0 or goals) and len(previous) == len(target) == 1:
                 if shapes.lies(previous[0], relation.kind, target[0]):
                     slots.relations.remove(relation)
                 elif index > 0:
@@ -216,6 +194,36 @@ class Reader:
                         f'two places in one clause: "{previous[0]}" is not {relation.kind} "{target[0]}"'
                     )
             previous = target
+
+    def _beside_or_on(self, relation: Relation, theme: Reference, target: Sequence[str]) -> None:
+        shapes = self.context.names.shapes
+        x0, _, x1, _ = shapes.box(target[0])
+        if target[0] != "canvas" and any(x0 < shapes.centre(n)[0] < x1 for n in theme.names):
+            raise TranslationError(
+                f"beside {listed(tuple(target))}, or on one half of it? say left of it or at its left end"
+            )
+        relation.kind = relation.kind.replace("side", "of")
+
+    def _only_tells(self, slots: Slots, relation: Relation, things: tuple[str, ...], target: tuple[str, ...]) -> bool:
+        """Whether a relation in a clause about a size or a turn only says which thing is meant."""
+        if relation.kind not in TELLING or "move" in slots.kinds():
+            return False
+        if self._already(things, relation.kind, target):
+            return True
+        if slots.kinds() == {"scale"} and len(things) == len(target) == 1:
+            kind = relation.kind.replace("_", " ")
+            raise TranslationError(f"{listed(things)} is not {kind} {listed(target)}")
+        return False
+
+    def _already(self, things: Sequence[str], kind: str, target: Sequence[str]) -> bool:
+        """Whether a thing is, roughly, in a relation to one other now, or is a part of it."""
+        if not len(things) == len(target) == 1:
+            return False
+        shapes, (name, other) = self.context.names.shapes, (things[0], target[0])
+        if other in ("canvas", "@ground", "@theme"):
+            return False
+        near = kind in ("on", "inside") and shapes.lies(name, "touch", other)
+        return near or shapes.part_of(name, other) or shapes.lies(name, kind, other)
 
     def _tells(self, slots: Slots, relation: Relation, theme: Reference) -> None:
         """Take out what only says which other thing a size is compared with: "the monitor above it"."""

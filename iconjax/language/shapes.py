@@ -64,14 +64,15 @@ class Shapes:
         loops = tuple(loop for s in self.segments(name) for loop in s.loops)
         return bool(loops) and elongation(loops) > SLENDER
 
-    def extent(self, name: str, dim: str) -> str:
+    def extent(self, name: str, dim: str, turns: bool = False) -> str:
         """The attribute that an everyday dimension means for this thing, e.g. "vert_len".
 
-        `dim` is vert, hori, length, thick, or short ("shorter": the height of what stands).
+        `dim` is vert, hori, length, thick, or short ("shorter": the height of what stands). Where a long thing
+        turns as well, the box says nothing of its length.
         """
         if dim in ("vert", "hori"):
             return f"{dim}_len"
-        if self.oblique(name):
+        if self.oblique(name) or (turns and self.slender(name)):
             return "short_len" if dim == "thick" else "long_len"
         wide, high = self.size(name)
         if dim == "thick":

@@ -25,9 +25,14 @@ def tidy(clauses: Sequence[Clause]) -> list[Clause]:
             out.append(clause)
         else:
             out[at] = replace(out[at], relation="beside", manner=out[at].manner | said | _said(out[at]))
-    if any(c.action == "side" for c in out):
-        raise TranslationError("the left or right of what is not clear")
-    return out
+    return [c for i, c in enumerate(out) if not (c.action == "go" and _only_turns(c, out[i + 1 :]))]
+
+
+def _only_turns(go: Clause, later: Sequence[Clause]) -> bool:
+    """Whether "bring it ... so that it is level" goes on to say how the thing lies, and not where."""
+    own = [c for c in later if c.theme == go.theme]
+    turned = any(c.action == "orient" for c in own)
+    return turned and not any(c.action in ("place", "move", "align", "keep") for c in later)
 
 
 def _said(clause: Clause) -> frozenset[str]:

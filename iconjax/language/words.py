@@ -20,13 +20,12 @@ def tokenise(request: str) -> list[str]:
     text = request.lower().replace("\u2019", "'").replace("\u2018", "'").replace("\u2212", "-")
     text = re.sub(r"\b(its) own\b", r"\1", text)
     text = re.sub(r"\bit's\b", "its" if not re.match(r"\s*it's\b", text) else "it is", text)
+    text = re.sub(r"\b(that|there|he|she|who|what)'s\b", r"\1 is", text)
     text = re.sub(r"\bthey're\b", "they are", text)
     text = re.sub(r"\b(i)'(?:d|ll|m)\b", r"\1", text)
     text = re.sub(r"n't\b", " not", text.replace("can't", "cannot").replace("won't", "not"))
     text = re.sub(r"(?<=[a-z])s'(?=\s)", "s 's", text)
-    text = re.sub(
-        r"\b(\d+) *(?:x|×) *(?=bigger|larger|as|the|wider|taller|longer|smaller)", r"\1 times ", text
-    )
+    text = re.sub(r"\b(\d+) *(?:x|×) *(?=bigger|larger|as|the|wider|taller|longer|smaller)", r"\1 times ", text)
     text = re.sub(r"(?<![\w.])-(?=\d)", " minus", text)  # kept as a word of its own
     text = re.sub(r"(?<=\d)-(?=[a-z])", " ", text)
     text = re.sub(r"(?<=[a-z.,%]) +[-\u2013] +(?=[a-z])| *\u2014 *", " ; ", text)  # a dash between clauses

@@ -72,7 +72,11 @@ def _resting(
 
 
 def _describe(
-    pairs_a: Float[np.ndarray, "m 2"], pairs_b: Float[np.ndarray, "m 2"], gap: float, share: float, share_b: float
+    pairs_a: Float[np.ndarray, "m 2"],
+    pairs_b: Float[np.ndarray, "m 2"],
+    gap: float,
+    share: float,
+    share_b: float,
 ) -> Contact:
     middles = (pairs_a + pairs_b) / 2
     centre = middles.mean(0)

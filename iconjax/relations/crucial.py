@@ -12,7 +12,6 @@ from iconjax.relations.contact import Border, find_contact
 from iconjax.relations.types import Relation, Scope
 from iconjax.scene.types import Scene
 
-
 BRIDGE_REACH = 0.08
 """Widest gap, as a share of the picture's larger side, over which a lone object belongs to the nearest one."""
 
@@ -40,7 +39,7 @@ def assign_scopes(scene: Scene, relations: Sequence[Relation]) -> list[Relation]
 
 
 def bridge_objects(scene: Scene, relations: Sequence[Relation], borders: Sequence[Border]) -> list[Relation]:
-    """"near" relations that tie each object without any relation to another one to the nearest, if that is close."""
+    """ "near" relations that tie each object without any relation to another one to the nearest, if that is close."""
     bridges: list[Relation] = []
     for name in scene.objects:
         members = set(scene.members(name))
@@ -53,13 +52,13 @@ def bridge_objects(scene: Scene, relations: Sequence[Relation], borders: Sequenc
             if (c := find_contact(borders[a], borders[b], BRIDGE_REACH * scene.size, 0.008 * scene.size)) is not None
         ]
         if near:
-            gap, a, b, contact = min(near, key=lambda item: item[0])
+            _, a, b, contact = min(near, key=lambda item: item[0])
             bridges.append(Relation(a, b, "near", "inter", contact))
     return bridges
 
 
 def bridge_components(scene: Scene, relations: Sequence[Relation], borders: Sequence[Border]) -> list[Relation]:
-    """"near" relations that tie the unconnected parts of each object together over the shortest gaps.
+    """ "near" relations that tie the unconnected parts of each object together over the shortest gaps.
 
     They are crucial where a part is connected to nothing else.
     """

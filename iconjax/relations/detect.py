@@ -64,9 +64,7 @@ def _relate(
     return Relation(a, b, "overlap", "inter", contact)
 
 
-def _containment(
-    scene: Scene, a: int, b: int, filled: list[Bool[np.ndarray, "H W"]]
-) -> tuple[Kind, int, int]:
+def _containment(scene: Scene, a: int, b: int, filled: list[Bool[np.ndarray, "H W"]]) -> tuple[Kind, int, int]:
     for inner, outer in ((a, b), (b, a)):
         mask = scene.segments[inner].mask
         if scene.segments[inner].area < scene.segments[outer].area:

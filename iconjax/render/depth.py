@@ -142,9 +142,7 @@ def _path_lengths(
     return float(total[0]), float(total[1]), int(total[2])
 
 
-def _lengths_at(
-    label: Int32[np.ndarray, "H W"], i: int, j: int, place: Window, reach: int
-) -> tuple[float, float, int]:
+def _lengths_at(label: Int32[np.ndarray, "H W"], i: int, j: int, place: Window, reach: int) -> tuple[float, float, int]:
     """`_path_lengths` at one place, summed over the pieces of the segments that meet there.
 
     Only points that both can join are compared: a bar that another one cuts in two says nothing
@@ -188,9 +186,7 @@ def _longest_path(grid: _Grid, contact: Bool[np.ndarray, "h w"]) -> float:
     return best
 
 
-def _arrange(
-    count: int, decided: dict[tuple[int, int], float], open_pairs: Iterable[tuple[int, int]]
-) -> DepthOrder:
+def _arrange(count: int, decided: dict[tuple[int, int], float], open_pairs: Iterable[tuple[int, int]]) -> DepthOrder:
     """A stable order in which decisions hold (the weakest yields in a ring), and defaults where they can."""
     links: set[tuple[int, int]] = set()
     cycles = []

@@ -11,9 +11,7 @@ from iconjax.render.ownership import RIM, TRACE, Box, Ownership, grown
 SHADING = 96  # colours that span less than this are one shaded surface
 
 
-def hidden_region(
-    own: Ownership, i: int, front: Bool[np.ndarray, " n"]
-) -> tuple[Box, Bool[np.ndarray, "h w"]] | None:
+def hidden_region(own: Ownership, i: int, front: Bool[np.ndarray, " n"]) -> tuple[Box, Bool[np.ndarray, "h w"]] | None:
     """Where segment i goes on under others: a window and a mask in it, or None.
 
     These are its inner holes that other segments (those of `front`, which are painted after it) fill up to

@@ -29,9 +29,7 @@ class Matte:
     other: Float[np.ndarray, "H W 3"]
 
 
-def together(
-    own: Ownership, i: int, window: Box, matrices: Float[np.ndarray, "n 2 3"]
-) -> Bool[np.ndarray, "h w"]:
+def together(own: Ownership, i: int, window: Box, matrices: Float[np.ndarray, "n 2 3"]) -> Bool[np.ndarray, "h w"]:
     """Pixels of a window owned by segment i or by a neighbour that is carried along with it there."""
     owner = own.owner[window]
     result = owner == i

@@ -18,9 +18,7 @@ from iconjax.scene.types import Scene
 SNAP = 0.02  # a transform that moves no corner of the picture this far, in pixels, is the identity
 
 
-def render(
-    scene: Scene, matrices: Float[np.ndarray, "n 2 3"], order: Sequence[int]
-) -> UInt8[np.ndarray, "H W 3"]:
+def render(scene: Scene, matrices: Float[np.ndarray, "n 2 3"], order: Sequence[int]) -> UInt8[np.ndarray, "H W 3"]:
     """Draw the scene with every segment moved by its transform.
 
     Args:
@@ -63,9 +61,7 @@ def outlines_after(
     )
 
 
-def _checked(
-    scene: Scene, matrices: Float[np.ndarray, "n 2 3"], order: Sequence[int]
-) -> Float[np.ndarray, "n 2 3"]:
+def _checked(scene: Scene, matrices: Float[np.ndarray, "n 2 3"], order: Sequence[int]) -> Float[np.ndarray, "n 2 3"]:
     count = len(scene.segments)
     matrices = np.array(matrices, np.float64).reshape(-1, 2, 3)
     if len(matrices) != count:

@@ -48,9 +48,7 @@ def warp(sprite: Sprite, matrix: Float[np.ndarray, "2 3"], shape: tuple[int, int
     gain = math.sqrt(abs(np.linalg.det(linear)))
     if abs(linear[0, 1]) < 1e-9 and abs(linear[1, 0]) < 1e-9:
         rows = _axis_weights(np.arange(top, bottom), linear[1, 1], shift[1], sprite.top, sprite.data.shape[0])
-        cols = _axis_weights(
-            np.arange(left, right), linear[0, 0], shift[0], sprite.left, sprite.data.shape[1]
-        )
+        cols = _axis_weights(np.arange(left, right), linear[0, 0], shift[0], sprite.left, sprite.data.shape[1])
         data = _weigh(cols, _weigh(rows, sprite.data).swapaxes(0, 1)).swapaxes(0, 1)
     else:
         data = _sample(sprite, matrix, span)
@@ -87,9 +85,7 @@ def _weigh(weights: Float[np.ndarray, "n m"], data: Float[np.ndarray, "m k 4"]) 
     return np.asarray(mixed).reshape(len(weights), *data.shape[1:])
 
 
-def _axis_weights(
-    pixels: np.ndarray, factor: float, shift: float, start: int, count: int
-) -> Float[np.ndarray, "n m"]:
+def _axis_weights(pixels: np.ndarray, factor: float, shift: float, start: int, count: int) -> Float[np.ndarray, "n m"]:
     """Weights of `count` source pixels in each target pixel along one axis."""
     source = np.arange(count) + start + 0.5
     if abs(factor) >= 1.0:

@@ -37,9 +37,7 @@ def build_scene(image: Any, seg: Any, labels: Any = None) -> Scene:
     return Scene(picture, segments, background_colour(picture, mask))
 
 
-def background_colour(
-    image: UInt8[np.ndarray, "H W 3"], mask: Integer[np.ndarray, "H W"]
-) -> UInt8[np.ndarray, " 3"]:
+def background_colour(image: UInt8[np.ndarray, "H W 3"], mask: Integer[np.ndarray, "H W"]) -> UInt8[np.ndarray, " 3"]:
     """The most common colour of the unlabelled pixels on the rim, else of all unlabelled ones, else white."""
     free = mask == 0
     rim = np.ones_like(free)
@@ -53,9 +51,7 @@ def background_colour(
     return np.full(3, 255, dtype=np.uint8)
 
 
-def _segment(
-    number: int, name: str, labels: Integer[np.ndarray, "H W"], window: tuple[slice, slice]
-) -> Segment:
+def _segment(number: int, name: str, labels: Integer[np.ndarray, "H W"], window: tuple[slice, slice]) -> Segment:
     crop: Bool[np.ndarray, "h w"] = labels[window] == number
     mask = np.zeros(labels.shape, dtype=bool)
     mask[window] = crop

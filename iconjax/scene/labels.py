@@ -52,9 +52,7 @@ def split_name(name: str) -> tuple[str, str | None]:
     return (head, tail) if colon else (head, None)
 
 
-def number_names(
-    labels: Mapping[int, str], centres: Mapping[int, tuple[float, float]], width: float
-) -> dict[int, str]:
+def number_names(labels: Mapping[int, str], centres: Mapping[int, tuple[float, float]], width: float) -> dict[int, str]:
     """Unique names: labels that occur twice get ` #1`, ` #2`, ... from left to right, then top to bottom.
 
     A number that would repeat another segment's own label is skipped.
@@ -181,9 +179,7 @@ def _segment_id(key: Any) -> int:
             raise ValueError
         number = int(key) if isinstance(key, str) else key.__index__()
     except (TypeError, ValueError, AttributeError):
-        raise InputError(
-            f"label key {str(key)[:40]!r} is no segment id: use whole numbers 1, 2, ..."
-        ) from None
+        raise InputError(f"label key {str(key)[:40]!r} is no segment id: use whole numbers 1, 2, ...") from None
     if number < 1:
         raise InputError(f"label key {number} is no segment id: 0 is background, segments are 1, 2, ...")
     return int(number)
@@ -203,7 +199,5 @@ def _tidy(number: int, label: Any) -> str:
             f"the label {label!r} of segment {number} has {len(parts) - 1} colons: only Object:Part is known"
         )
     if not all(parts):
-        raise InputError(
-            f"the label {label!r} of segment {number} lacks a name beside its colon: write Object:Part"
-        )
+        raise InputError(f"the label {label!r} of segment {number} lacks a name beside its colon: write Object:Part")
     return ":".join(parts)

@@ -68,15 +68,9 @@ def load_segmentation(source: Any, labels: Any = None) -> Segmentation:
         names = _labels_beside(path) if labels is None else labels
     else:
         names, what = labels, "the segmentation"
-        mask = (
-            mask_of_pil(source, what)
-            if is_pil(source)
-            else mask_of_array(as_array(source, "segmentation"), what)
-        )
+        mask = mask_of_pil(source, what) if is_pil(source) else mask_of_array(as_array(source, "segmentation"), what)
     if names is None:
-        raise InputError(
-            'the segmentation has no labels: give a mapping like {1: "Lamp:Shade"} or a JSON or CSV file'
-        )
+        raise InputError('the segmentation has no labels: give a mapping like {1: "Lamp:Shade"} or a JSON or CSV file')
     table = check_labels(names) if isinstance(names, Mapping) else read_labels(names)
     _check_agreement(mask, table)
     return Segmentation(mask, table)
@@ -86,9 +80,7 @@ def check_sizes(image: UInt8[np.ndarray, "H W 3"], seg: Segmentation) -> None:
     """Raise `InputError` unless picture and label map have the same size."""
     if image.shape[:2] != seg.mask.shape:
         (h, w), (mh, mw) = image.shape[:2], seg.mask.shape
-        raise InputError(
-            f"the image is {w}x{h} pixels but the segmentation is {mw}x{mh}: they must have the same size"
-        )
+        raise InputError(f"the image is {w}x{h} pixels but the segmentation is {mw}x{mh}: they must have the same size")
 
 
 def load_case(folder: str | os.PathLike[str]) -> Case:
@@ -156,15 +148,11 @@ def _check_agreement(mask: Int32[np.ndarray, "H W"], labels: Mapping[int, str]) 
         )
     unnamed = [i for i in found if i not in labels]
     if unnamed:
-        raise InputError(
-            f"segments without a label: {_some(unnamed)}: add them to the labels or set their pixels to 0"
-        )
+        raise InputError(f"segments without a label: {_some(unnamed)}: add them to the labels or set their pixels to 0")
     unused = [i for i in labels if i >= len(counts) or counts[i] == 0]
     if unused:
         named = _some([f"{i} ({labels[i]!r})" for i in unused])
-        raise InputError(
-            f"labels without pixels in the segmentation: {named}: draw them or remove the labels"
-        )
+        raise InputError(f"labels without pixels in the segmentation: {named}: draw them or remove the labels")
 
 
 def _some(items: list[Any]) -> str:

@@ -150,9 +150,7 @@ def _alone(points: Int[np.ndarray, "n 2"]) -> Bool[np.ndarray, " n"]:
     return np.asarray(np.bincount(code)[code] == 1)
 
 
-def _relax(
-    raw: Float[np.ndarray, "n 2"], rings: _Rings, loose: Bool[np.ndarray, " n"]
-) -> Float[np.ndarray, "n 2"]:
+def _relax(raw: Float[np.ndarray, "n 2"], rings: _Rings, loose: Bool[np.ndarray, " n"]) -> Float[np.ndarray, "n 2"]:
     """The loose points smoothed, each a little."""
     points = raw.copy()
     before, after = rings.before[loose], rings.after[loose]

@@ -50,9 +50,7 @@ def open_image(source: str | os.PathLike[str], what: str) -> Image:
     except PermissionError:
         raise InputError(f"{what} file {path} cannot be opened: permission denied") from None
     except Image.DecompressionBombError:
-        raise InputError(
-            f"the {what} {path} has too many pixels: at most {MOST} are read, scale it down"
-        ) from None
+        raise InputError(f"the {what} {path} has too many pixels: at most {MOST} are read, scale it down") from None
     except UnidentifiedImageError:
         empty = path.stat().st_size == 0
         why = "is empty" if empty else "is not an image Pillow can read"
@@ -73,9 +71,7 @@ def _check_pixels(width: int, height: int, what: str) -> None:
     if width < 1 or height < 1:
         raise InputError(f"{what} has no pixels ({width}x{height}): give a picture of at least 1x1")
     if width * height > MAX_PIXELS:
-        raise InputError(
-            f"{what} has too many pixels ({width}x{height}): at most {MOST} are read, scale it down"
-        )
+        raise InputError(f"{what} has too many pixels ({width}x{height}): at most {MOST} are read, scale it down")
 
 
 def as_array(source: Any, what: str) -> np.ndarray:
@@ -99,9 +95,7 @@ def rgb_of_pil(image: Image, what: str) -> UInt8[np.ndarray, "H W 3"]:
     except InputError:
         raise
     except Exception as error:
-        raise InputError(
-            f"{what} cannot be turned into RGB ({_one_line(error)}): save it as RGB PNG"
-        ) from None
+        raise InputError(f"{what} cannot be turned into RGB ({_one_line(error)}): save it as RGB PNG") from None
 
 
 def _convert(image: Image, what: str) -> UInt8[np.ndarray, "H W 3"]:
@@ -142,9 +136,7 @@ def _to_bytes(array: np.ndarray, what: str) -> UInt8[np.ndarray, "H W C"]:
     low, high = array.min(), array.max()
     if array.dtype.kind == "f":
         if low < 0 or high > 1:
-            raise InputError(
-                f"{what} has floats from {low:g} to {high:g}: use 0 to 1, or uint8 from 0 to 255"
-            )
+            raise InputError(f"{what} has floats from {low:g} to {high:g}: use 0 to 1, or uint8 from 0 to 255")
         return np.rint(array * 255.0).astype(np.uint8)
     if low < 0 or high > 255:
         raise InputError(f"{what} has values from {low} to {high}: use 0 to 255 (or dtype uint16 for 16-bit)")
@@ -170,9 +162,7 @@ def mask_of_array(array: np.ndarray, what: str) -> Int32[np.ndarray, "H W"]:
     if array.ndim == 3 and array.shape[-1] in (1, 2, 3, 4):
         array = _grey(array, what)
     if array.ndim != 2:
-        raise InputError(
-            f"{what} has shape {array.shape}: it must be one segment id per pixel, (height, width)"
-        )
+        raise InputError(f"{what} has shape {array.shape}: it must be one segment id per pixel, (height, width)")
     height, width = array.shape
     _check_pixels(width, height, what)
     if array.dtype.kind == "f":
@@ -182,9 +172,7 @@ def mask_of_array(array: np.ndarray, what: str) -> Int32[np.ndarray, "H W"]:
             f"{what} has negative ids (down to {array.min()}): use 0 for background, 1, 2, ... for segments"
         )
     if array.max() > MAX_ID:
-        raise InputError(
-            f"{what} has ids up to {array.max()}: at most {MAX_ID} is allowed, number them 1, 2, ..."
-        )
+        raise InputError(f"{what} has ids up to {array.max()}: at most {MAX_ID} is allowed, number them 1, 2, ...")
     return array.astype(np.int32)
 
 
@@ -193,12 +181,8 @@ def _grey(array: np.ndarray, what: str) -> np.ndarray:
     channels = array.shape[-1]
     colour = array[..., : 3 if channels >= 3 else 1]
     if (colour != colour[..., :1]).any():
-        raise InputError(
-            f"{what} is a colour picture: save it as 8- or 16-bit grey PNG with one id per pixel"
-        )
+        raise InputError(f"{what} is a colour picture: save it as 8- or 16-bit grey PNG with one id per pixel")
     alpha = array[..., -1][colour[..., 0] > 0] if channels in (2, 4) else array[:0, :0, 0]
     if alpha.size and alpha.min() != alpha.max():
-        raise InputError(
-            f"{what} is partly transparent: save it as 8- or 16-bit grey PNG with one id per pixel"
-        )
+        raise InputError(f"{what} is partly transparent: save it as 8- or 16-bit grey PNG with one id per pixel")
     return colour[..., 0]

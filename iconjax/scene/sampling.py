@@ -200,9 +200,7 @@ def area_samples(mask: Bool[np.ndarray, "H W"], count: int) -> Float[np.ndarray,
     return np.asarray(points[np.lexsort((away, patch))[first]])
 
 
-def side_loops(
-    loops: Loops, side: str, box: tuple[float, float, float, float]
-) -> tuple[Float[np.ndarray, "_ 2"], ...]:
+def side_loops(loops: Loops, side: str, box: tuple[float, float, float, float]) -> tuple[Float[np.ndarray, "_ 2"], ...]:
     """The outermost quarter of a shape on one side: its outlines clipped to that quarter of `box`.
 
     Args:

@@ -16,7 +16,7 @@ from iconjax.dsl.units import Unit, pixels_per_unit
 from iconjax.scene.types import Scene
 from iconjax.search.coherent import CoherentSearch
 from iconjax.search.config import SearchConfig
-from iconjax.search.cost import measure_motion
+from iconjax.search.motion import Motion, measure_motion
 from iconjax.search.paper import PaperSearch
 from iconjax.search.setup import Setup, prepare
 from iconjax.search.types import ConstraintReport, RelationReport, SearchOutcome
@@ -80,7 +80,7 @@ class _Found:
     notes: tuple[str, ...]
 
 
-def motion_word(motion, i: int) -> str:  # type: ignore[no-untyped-def]
+def motion_word(motion: Motion, i: int) -> str:
     """The motion state that a result amounts to."""
     if motion.shift[i] < 1e-6:
         return "N"

@@ -108,7 +108,7 @@ def _bodies(
         box = facts.features[members]
         low, high = box[:, [0, 3]].min(0), box[:, [2, 5]].max(0)
         centre[k] = (low + high) / 2
-        radius[k] = max(np.linalg.norm(high - low) / 2, 0.02 * setting.size)
+        radius[k] = max(float(np.linalg.norm(high - low)) / 2, 0.02 * setting.size)
         mode = state.modes[root]
         free[k], uniform[k] = _freedom(mode)
         if scale_kind(mode) in ("Sl", "Ss"):

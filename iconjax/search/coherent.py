@@ -9,10 +9,12 @@ from itertools import product
 import numpy as np
 from jaxtyping import Float
 
+from iconjax.dsl.nodes import Call, segment_names, walk
 from iconjax.search.candidate import body_roots, build_candidate, members_of
 from iconjax.search.config import SearchConfig
-from iconjax.search.cost import STILL_PX, Judge, Judgement, measure_motion
+from iconjax.search.cost import Judge, Judgement
 from iconjax.search.flips import flips
+from iconjax.search.motion import STILL_PX, measure_motion
 from iconjax.search.setup import BODIES, Setup, static_size
 from iconjax.search.starts import initial_states
 from iconjax.search.state import Mode, State
@@ -102,9 +104,9 @@ class CoherentSearch:
 
     def _signed(self, members: Sequence[int]) -> bool:
         """Whether the program says by how much these segments turn, and which way."""
-        names = {self.setup.scene.segments[i].name for i in members} | {self.setup.scene.segments[i].object for i in members}
-        from iconjax.dsl.nodes import Call, segment_names, walk
-
+        names = {self.setup.scene.segments[i].name for i in members} | {
+            self.setup.scene.segments[i].object for i in members
+        }
         return any(
             isinstance(node, Call) and node.name == "rotation" and set(segment_names(node)) & names
             for call in self.setup.program.calls

@@ -32,8 +32,8 @@ class Alignment:
     Attributes:
         a, b: segments.
         feature: 0..5 for min x, centre x, max x, min y, centre y, max y.
-        reason: "touching", "siblings", "ground", "support" for what is put on top of something (centred within slack),
-            "overhang" for what does not stick out beyond what it rests on, "floor" for what does not sink into the ground.
+        reason: "touching", "siblings", "ground", "support" for what is put on top of something, "overhang" for what does
+            not stick out beyond what it rests on, "floor" for what does not sink into the ground.
         low, high: how much less or more than before the difference of the two features may be, px.
         wanted: difference of the two features to aim at where it is not the one before, px.
     """
@@ -127,13 +127,13 @@ def gather_facts(scene: Scene, relations: Sequence[Relation]) -> Facts:
     )
 
 
-def _hung(
-    scene: Scene, relations: Sequence[Relation], features: Float[np.ndarray, "n 6"]
-) -> Bool[np.ndarray, " n"]:
+def _hung(scene: Scene, relations: Sequence[Relation], features: Float[np.ndarray, "n 6"]) -> Bool[np.ndarray, " n"]:
     hung = np.zeros(len(features), bool)
     for name in scene.objects:
         members = list(scene.members(name))
-        outside = [r for r in relations if r.scope == "inter" and r.kind == "overlap" and (r.a in members) != (r.b in members)]
+        outside = [
+            r for r in relations if r.scope == "inter" and r.kind == "overlap" and (r.a in members) != (r.b in members)
+        ]
         if len(outside) != 1:
             continue
         contact = outside[0].contact
@@ -146,9 +146,7 @@ def _hung(
     return hung
 
 
-def _mirrors(
-    scene: Scene, relations: Sequence[Relation], features: Float[np.ndarray, "n 6"]
-) -> tuple[Mirror, ...]:
+def _mirrors(scene: Scene, relations: Sequence[Relation], features: Float[np.ndarray, "n 6"]) -> tuple[Mirror, ...]:
     near: dict[int, list[int]] = {}
     for r in relations:
         near.setdefault(r.a, []).append(r.b)
@@ -199,7 +197,7 @@ def _grounded(scene: Scene, boxes: Float[np.ndarray, "n 4"]) -> Bool[np.ndarray,
     level = np.abs(bottom[:, None] - bottom) <= 2 + ALIGNED * scene.size
     apart = (boxes[:, None, 0] > boxes[:, 2]) | (boxes[:, None, 2] < boxes[:, 0])
     paired = (level & apart & low & low[:, None]).any(1)
-    return low & (paired | np.array([_flat(s) for s in scene.segments]))
+    return np.asarray(low & (paired | np.array([_flat(s) for s in scene.segments])))
 
 
 def _flat(segment: Segment) -> bool:
@@ -210,7 +208,7 @@ def _flat(segment: Segment) -> bool:
 
 
 def _lodged(scene: Scene, relations: Sequence[Relation]) -> dict[int, int]:
-    """Small segments most of whose outline lies along several parts of one object, with the part they share most with."""
+    """Small segments most of whose outline lies along several parts of one object, with the part they touch most."""
     along: dict[tuple[int, str], list[tuple[float, int]]] = {}
     for r in relations:
         if r.kind != "overlap" or r.contact.gap > 2:
@@ -244,7 +242,10 @@ def _hosts(scene: Scene, relations: Sequence[Relation]) -> tuple[int | None, ...
 
 
 def _alignments(
-    scene: Scene, relations: Sequence[Relation], features: Float[np.ndarray, "n 6"], grounded: Bool[np.ndarray, " n"]
+    scene: Scene,
+    relations: Sequence[Relation],
+    features: Float[np.ndarray, "n 6"],
+    grounded: Bool[np.ndarray, " n"],
 ) -> tuple[Alignment, ...]:
     limit = ALIGNED * scene.size
     found = [Alignment(int(i), None, 5, "ground") for i in np.flatnonzero(grounded)]
@@ -254,7 +255,7 @@ def _alignments(
         found += [Alignment(i, None, 5, "floor", low, float(floor - f[5])) for i, f in enumerate(features)]
     linked = {(r.a, r.b) for r in relations if r.kind != "near"}
     for a, b in sorted(linked):
-        for f in np.flatnonzero(np.abs(features[a] - features[b]) <= limit):
+        for f in np.flatnonzero(np.abs(features[a] - features[b]) <= limit).tolist():
             found.append(Alignment(a, b, int(f), "touching"))
     found += _overhangs(scene, relations, features, limit)
     size = features[:, [2, 5]] - features[:, [0, 3]]

@@ -28,7 +28,7 @@ def flips(setting: Setting, state: State, judgement: Judgement) -> Iterator[Stat
                 yield state.with_relations({e: other}, f"relation {e} to {other}")
     details = [i for i in hot if state.modes[i] == f"W:{setting.facts.host[i]}" and not setting.intent.things_of(i)]
     if len(details) > 1:
-        yield state.with_modes({i: "T" for i in details}, "all details keep their shape")
+        yield state.with_modes(dict.fromkeys(details, "T"), "all details keep their shape")
     for i in details:
         yield state.with_modes({i: "T"}, f"detail {i} keeps its shape")
     for i in hot:
@@ -50,9 +50,7 @@ def _hot(setting: Setting, state: State, judgement: Judgement) -> list[int]:
     return [i for i in hot if i not in setting.intent.fixed]
 
 
-def _segment_flips(
-    setting: Setting, state: State, i: int, unmet: bool
-) -> Iterator[tuple[dict[int, Mode], str]]:
+def _segment_flips(setting: Setting, state: State, i: int, unmet: bool) -> Iterator[tuple[dict[int, Mode], str]]:
     asked = setting.intent.things_of(i)
     if asked:
         if unmet:
@@ -91,4 +89,4 @@ def _sibling_flips(setting: Setting, state: State, hot: Sequence[int]) -> Iterat
             continue
         for other in FREEDOMS:
             if other != mode:
-                yield state.with_modes({i: other for i in alike}, f"all of {mode} to {other}")
+                yield state.with_modes(dict.fromkeys(alike, other), f"all of {mode} to {other}")

@@ -19,7 +19,18 @@ EXTENTS: Mapping[str, frozenset[str]] = {
     "uniform": frozenset({"uniform"}),
 }
 """Which extents of a segment an operator speaks of."""
-TURNING = frozenset({"rotation", "angle", "long_dir_x", "long_dir_y", "short_dir_x", "short_dir_y", "parallel", "perpendicular"})
+TURNING = frozenset(
+    {
+        "rotation",
+        "angle",
+        "long_dir_x",
+        "long_dir_y",
+        "short_dir_x",
+        "short_dir_y",
+        "parallel",
+        "perpendicular",
+    }
+)
 """Operators that speak of a direction."""
 
 
@@ -102,7 +113,9 @@ def read_intent(program: Program, scene: Scene) -> Intent:
             turns = any(t for m, _, t in spoken if set(m) & set(movable))
             things.append(Thing(movable, frozenset(kinds), extents, turns))
     mentioned = frozenset(i for m, _, _ in spoken for i in m)
-    changed = frozenset(e for c in constraints if not _keeps(c) for _, extents, _ in _spoken([c], scene) for e in extents)
+    changed = frozenset(
+        e for c in constraints if not _keeps(c) for _, extents, _ in _spoken([c], scene) for e in extents
+    )
     return Intent(
         tuple(things), frozenset(fixed), tuple(together), mentioned, _placed(constraints, scene), changed & {"x", "y"},
         tuple(_pairs(constraints, scene, "hinge", "coincide_on_point")),
@@ -153,9 +166,7 @@ def _region(node: Node, scene: Scene) -> tuple[int, ...]:
     return ()
 
 
-def _imply(
-    constraints: list[Call], scene: Scene, asked: dict[tuple[int, ...], set[str]], fixed: set[int]
-) -> None:
+def _imply(constraints: list[Call], scene: Scene, asked: dict[tuple[int, ...], set[str]], fixed: set[int]) -> None:
     movable = {i for members in asked for i in members}
     for call in constraints:
         spoken = [s for s in _spoken([call], scene) if not set(s[0]) <= fixed]
@@ -183,9 +194,7 @@ def _strip(node: Node) -> Node:
     return node
 
 
-def _placed(
-    constraints: list[Call], scene: Scene
-) -> tuple[tuple[frozenset[int], frozenset[int]], ...]:
+def _placed(constraints: list[Call], scene: Scene) -> tuple[tuple[frozenset[int], frozenset[int]], ...]:
     touching = _pairs(constraints, scene, "touch", "overlap")
     touching |= {(b, a) for a, b in touching}
     return tuple(p for p in sorted(_pairs(constraints, scene, "on_top"), key=str) if p in touching)

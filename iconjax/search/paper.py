@@ -150,9 +150,7 @@ class PaperSearch:
                 return k + 1
         return len(chosen)
 
-    def _keep_falling(
-        self, best: PaperState, subject: str, flips: Sequence[tuple[str, PaperState]]
-    ) -> PaperState:
+    def _keep_falling(self, best: PaperState, subject: str, flips: Sequence[tuple[str, PaperState]]) -> PaperState:
         """Keep each flip with which the score falls."""
         for words, state in flips:
             if state.relations == best.relations:
@@ -185,9 +183,7 @@ class PaperSearch:
             falls = self._score(state) < self._score(best)
             simpler = MOTIONS.index(motion) > MOTIONS.index(best.motion[node])
             kept = falls or (simpler and self._score(state) <= self._score(best))
-            reason = (
-                "the score falls" if falls else "simpler, and the score does not rise" if kept else "no gain"
-            )
+            reason = "the score falls" if falls else "simpler, and the score does not rise" if kept else "no gain"
             self._record(f"{name}: {motion}", state, kept, reason)
             best = state if kept else best
         return best
@@ -205,6 +201,4 @@ class PaperSearch:
         first = float(excess[: self.program.primary].sum()) / count
         terms = {"primary": first, "secondary": float(excess.sum()) / count - first}
         motion = dict(zip(names, state.motion, strict=True))
-        self.entries.append(
-            TraceEntry(self.round - 1, origin, motion, loose, solved.score, terms, kept, reason)
-        )
+        self.entries.append(TraceEntry(self.round - 1, origin, motion, loose, solved.score, terms, kept, reason))

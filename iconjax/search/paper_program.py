@@ -124,11 +124,7 @@ def _meetings(relations: Sequence[Relation], rows: int, still: int) -> dict[str,
 def trim(compiled: CompiledProgram) -> tuple[Code, Regions]:
     """The program in smaller arrays: one residual more does not have to double all of them."""
     code, regions = compiled.code, compiled.regions
-    named = int(
-        np.max(
-            [np.append(x, -1).max() for x in (code.region_a, code.region_b, regions.first, regions.second)]
-        )
-    )
+    named = int(np.max([np.append(x, -1).max() for x in (code.region_a, code.region_b, regions.first, regions.second)]))
     used = (int(code.leaves), int(code.steps), named + 1, len(compiled.owner))
     tier = next((t for t in TIERS if all(u <= size for u, size in zip(used, t, strict=True))), None)
     whole = code.leaf_op.shape[0]

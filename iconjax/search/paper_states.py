@@ -106,28 +106,20 @@ def subsets(front: Sequence[int], most: int) -> tuple[list[tuple[int, ...]], int
     return chosen, count
 
 
-def next_edges(
-    front: Iterable[int], seen: set[int], relations: Sequence[Relation], edges: Sequence[int]
-) -> list[int]:
+def next_edges(front: Iterable[int], seen: set[int], relations: Sequence[Relation], edges: Sequence[int]) -> list[int]:
     """Edges not seen yet that share a segment with the front."""
     nodes = {n for e in front for n in (relations[e].a, relations[e].b)}
     return [e for e in edges if e not in seen and {relations[e].a, relations[e].b} & nodes]
 
 
-def next_nodes(
-    front: Iterable[int], seen: set[int], relations: Sequence[Relation], edges: Sequence[int]
-) -> list[int]:
+def next_nodes(front: Iterable[int], seen: set[int], relations: Sequence[Relation], edges: Sequence[int]) -> list[int]:
     """Segments not seen yet that are related to one of the front."""
     some = set(front)
-    near = [
-        n for e in edges for n in (relations[e].a, relations[e].b) if some & {relations[e].a, relations[e].b}
-    ]
+    near = [n for e in edges for n in (relations[e].a, relations[e].b) if some & {relations[e].a, relations[e].b}]
     return [n for n in dict.fromkeys(near) if n not in seen]
 
 
-def build_bodies(
-    motion: Sequence[str], features: Float[np.ndarray, "n 6"], size: float, count: int
-) -> Bodies:
+def build_bodies(motion: Sequence[str], features: Float[np.ndarray, "n 6"], size: float, count: int) -> Bodies:
     """Each segment as a body of its own, its motion state as a mask; scaling is along the picture's axes."""
     n = len(motion)
     centre, radius, free = np.zeros((count, 2)), np.ones(count), np.zeros((count, 5))

@@ -17,9 +17,9 @@ from iconjax.relations.detect import detect_relations
 from iconjax.relations.types import Relation
 from iconjax.scene.types import Scene
 from iconjax.search.candidate import Setting, Sizes
+from iconjax.search.config import SearchConfig
 from iconjax.search.facts import Alignment, Facts, gather_facts
 from iconjax.search.intent import Intent, read_intent
-from iconjax.search.config import SearchConfig
 from iconjax.search.shapes import Shapes
 from iconjax.solve.arrays import Alignments, Joints, Problem
 from iconjax.solve.compile import CompiledProgram, compile_program
@@ -81,13 +81,17 @@ def prepare(scene: Scene, program: Program, config: SearchConfig, registry: Regi
     facts = gather_facts(scene, relations)
     intent = read_intent(program, scene)
     facts = replace(facts, alignments=(*_supports(facts, intent), *facts.alignments))
-    setting = Setting(facts, relations, intent, config.forces, float(scene.size), _pieces(len(scene.segments), relations))
+    setting = Setting(
+        facts, relations, intent, config.forces, float(scene.size), _pieces(len(scene.segments), relations)
+    )
     checked = check_or_raise(program, registry)
     motion = {o.name for o in registry.operators.values() if o.is_motion}
     units = tuple(None if c.name in motion else checked.unit(c) for c in program.calls)
     n = static_size(len(scene.segments), SEGMENTS, "segments")
     sizes = Sizes(n, _grown(len(relations), 2 * n), _grown(len(facts.alignments), 4 * n), BODIES[0])
-    table = operator_table(registry, frozenset(node.name for c in program.calls for node in walk(c) if isinstance(node, Call)))
+    table = operator_table(
+        registry, frozenset(node.name for c in program.calls for node in walk(c) if isinstance(node, Call))
+    )
     compiled = compile_program(
         program, units, scene, relations, table,
         {o.name: o.residual_size for o in registry.operators.values()},

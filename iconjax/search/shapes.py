@@ -15,7 +15,7 @@ OUTLINE = 48
 def apply(matrix: Float[np.ndarray, "6"], points: Float[np.ndarray, "m 2"]) -> Float[np.ndarray, "m 2"]:
     """Points under a transform."""
     m = matrix.reshape(2, 3)
-    return points @ m[:, :2].T + m[:, 2]
+    return np.asarray(points @ m[:, :2].T + m[:, 2])
 
 
 class Shapes:
@@ -46,7 +46,11 @@ class Shapes:
         return np.stack([x0, (x0 + x1) / 2, x1, y0, (y0 + y1) / 2, y1], 1)
 
     def slip(
-        self, r: Relation, matrices: Float[np.ndarray, "n 6"], turn: Float[np.ndarray, " n"], ends: float = 0.5
+        self,
+        r: Relation,
+        matrices: Float[np.ndarray, "n 6"],
+        turn: Float[np.ndarray, " n"],
+        ends: float = 0.5,
     ) -> tuple[float, float]:
         """How far the two sides of a relation's contact have come apart along and across it, px: the worse of its
         middle and, counted by `ends`, of its ends."""
@@ -101,7 +105,10 @@ class Shapes:
         return bool(f[0] < g[2] and g[0] < f[2] and f[3] < g[5] and g[3] < f[5])
 
     def collisions(
-        self, matrices: Float[np.ndarray, "n 6"], features: Float[np.ndarray, "n 6"], moved: Int[np.ndarray, " m"]
+        self,
+        matrices: Float[np.ndarray, "n 6"],
+        features: Float[np.ndarray, "n 6"],
+        moved: Int[np.ndarray, " m"],
     ) -> float:
         """How much segments that were apart now overlap: shares of the outline of one inside the other, summed."""
         some = set(moved.tolist())

@@ -10,7 +10,7 @@ import networkx as nx
 from iconjax.relations.types import Relation
 from iconjax.search.candidate import Setting
 from iconjax.search.facts import Facts
-from iconjax.search.intent import Intent, Thing
+from iconjax.search.intent import Thing
 from iconjax.search.state import Mode, State, scale_kind
 
 ELONGATED = 3.0
@@ -56,7 +56,11 @@ def asked_state(setting: Setting) -> State:
     modes = ["N"] * n
     asked = {i for t in intent.things for i in t.members}
     for i, host in enumerate(facts.host):
-        if host is not None and i not in intent.fixed and i not in {m for t in intent.things if len(t.members) == 1 for m in t.members}:
+        if (
+            host is not None
+            and i not in intent.fixed
+            and i not in {m for t in intent.things if len(t.members) == 1 for m in t.members}
+        ):
             modes[i] = f"W:{host}" if i not in asked or host in asked else "N"
     for thing in sorted(intent.things, key=lambda t: -len(t.members)):
         rest = [i for i in thing.members if intent.things_of(i)[0] == thing and not modes[i].startswith("W:")]
@@ -73,12 +77,10 @@ def asked_state(setting: Setting) -> State:
         kind = scale_kind(modes[_root(modes, i)]) if modes[i] == f"W:{host}" else ""
         if kind not in ("", "Su") and facts.round[i] and i not in asked:
             modes[i] = "T"  # a disc on something that changes its proportions stays a disc
-    for group in intent.together:
-        free = [i for i in group if i not in intent.fixed]
-        leader = next((i for i in free if modes[i] not in ("N",) and not modes[i].startswith("W:")), free[0] if free else None)
-        for i in free:
-            if i != leader:
-                modes[i] = f"W:{leader}"
+    for together in intent.together:
+        free = [i for i in together if i not in intent.fixed]
+        leaders = [i for i in free if modes[i] != "N" and not modes[i].startswith("W:")] or free[:1]
+        modes = [f"W:{leaders[0]}" if i in free and i != leaders[0] else m for i, m in enumerate(modes)]
     return State(tuple(modes), {}, "only what was asked")
 
 
@@ -116,7 +118,7 @@ def options(setting: Setting, base: State, group: set[int]) -> list[dict[int, Mo
     touched = sorted(i for i in neighbours(setting.relations, group) if base.mode(i) != "N")
     roots = sorted({base.root(i) for i in touched})
     rigid = [r for r in roots if not scale_kind(base.modes[r])]
-    out = [{i: f"W:{r}" for i in group} for r in rigid]
+    out = [dict.fromkeys(group, f"W:{r}") for r in rigid]
     out.append(group_modes(group, leader, "T"))
     if any("R" in base.mode(i) for i in touched):
         out.append(group_modes(group, leader, "TR"))
@@ -132,11 +134,16 @@ def options(setting: Setting, base: State, group: set[int]) -> list[dict[int, Mo
 def loose_modes(setting: Setting, base: State, group: set[int]) -> list[dict[int, Mode]]:
     """A hanging set taken apart: each of its segments follows by itself, those next to something that changes size
     change theirs in the same way."""
-    apart = {i: "T" for i in group}
+    apart = dict.fromkeys(group, "T")
     out = [apart]
     scaled = {}
     for i in group:
-        kinds = {scale_kind(base.mode(j)) for j in neighbours(setting.relations, {i})} - {"", "Su", "Sl", "Ss"}
+        kinds = {scale_kind(base.mode(j)) for j in neighbours(setting.relations, {i})} - {
+            "",
+            "Su",
+            "Sl",
+            "Ss",
+        }
         for kind in sorted(kinds):
             scaled[i] = "T" + (setting.intent.only_extent(kind) or kind)
     if scaled:

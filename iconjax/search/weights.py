@@ -48,7 +48,14 @@ class Forces:
     middle: float = 0.34
     end: float = 0.33
     align: Mapping[str, float] = field(
-        default_factory=lambda: {"touching": 20.0, "siblings": 2.0, "ground": 4.0, "support": 6.0, "overhang": 20.0, "floor": 4.0}
+        default_factory=lambda: {
+            "touching": 20.0,
+            "siblings": 2.0,
+            "ground": 4.0,
+            "support": 6.0,
+            "overhang": 20.0,
+            "floor": 4.0,
+        }
     )
     asked_ground: float = 0.2
     canvas: float = 30.0
@@ -104,7 +111,7 @@ class Costs:
         broad: how much dearer that gets for each share of both outlines, beyond a fifth, that lies at the contact.
         carrier: how much dearer it gets where the larger of two things moves and leaves the smaller behind.
         bearing: share of it that counts between what turns on request and a stand that stays.
-        moved: another set of parts that moves in a way of its own though nobody asked, plus `moved_area` times its area.
+        moved: another set of parts that moves in a way of its own though nobody asked; plus `moved_area` for its area.
         along: the same where it goes along with something that was asked to move.
         turned, stretched: added where it turns or changes size; `squashed` where a disc loses its shape.
         hung: added where something turns that hangs from what moves.
@@ -151,7 +158,14 @@ class Costs:
     pivot: float = 2.5
     uneven: float = 2.0
     misaligned: Mapping[str, float] = field(
-        default_factory=lambda: {"touching": 1.0, "siblings": 0.3, "ground": 0.5, "support": 3.0, "overhang": 1.5, "floor": 1.0}
+        default_factory=lambda: {
+            "touching": 1.0,
+            "siblings": 0.3,
+            "ground": 0.5,
+            "support": 3.0,
+            "overhang": 1.5,
+            "floor": 1.0,
+        }
     )
     misaligned_most: float = 3.0
     asymmetric: float = 1.5

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from jaxtyping import Array, Float, Int
+from jaxtyping import Float, Int
 
-from iconjax.solve.pose import Bodies
+from iconjax.solve.pose import Array, Bodies
 
 
 class Regions(NamedTuple):

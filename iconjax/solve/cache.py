@@ -15,17 +15,17 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import cache
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
 import jax
-import jaxlib
 from jax.experimental import serialize_executable
 
 import iconjax
 
 _memory: dict[str, Any] = {}
-OPTIONS = {"xla_llvm_disable_expensive_passes": True}
+OPTIONS: dict[str, str | bool] = {"xla_llvm_disable_expensive_passes": True}
 """Halves the compile time and costs no measurable speed on kernels this small (`docs/performance.md`)."""
 
 
@@ -73,14 +73,14 @@ def compiled(name: str, function: Callable[..., Any], arguments: tuple[Any, ...]
     """
     leaves, tree = jax.tree.flatten(arguments)
     shapes = [(tuple(x.shape), str(x.dtype)) for x in leaves]
-    text = "|".join([name, str(shapes), str(tree), jax.__version__, jaxlib.__version__, _sources(), _machine()])
+    text = "|".join([name, str(shapes), str(tree), jax.__version__, version("jaxlib"), _sources(), _machine()])
     key = hashlib.sha256(text.encode()).hexdigest()[:32]
     if key in _memory:
         return _memory[key], 0.0
     begin = time.perf_counter()
     executable = _load(key)
     if executable is None:
-        specs = jax.tree.map(lambda x: jax.ShapeDtypeStruct(x.shape, x.dtype), arguments)
+        specs = jax.eval_shape(lambda *a: a, *arguments)
         executable = jax.jit(function).lower(*specs).compile(compiler_options=OPTIONS)
         _store(key, executable)
     _memory[key] = executable

@@ -107,9 +107,7 @@ def box_rows(
 
     start = problem.hull
     before = jnp.stack([start[..., 0].min(1), start[..., 0].max(1), start[..., 1].min(1), start[..., 1].max(1)], 1)
-    mixing = jnp.array(
-        [[1.0, 0, 0, 0], [0.5, 0.5, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0.5, 0.5], [0, 0, 0, 1]]
-    )
+    mixing = jnp.array([[1.0, 0, 0, 0], [0.5, 0.5, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0.5, 0.5], [0, 0, 0, 1]])
     rows = problem.alignments
     mix = mixing[rows.feature]  # F 4
     values = jnp.concatenate([value, jnp.zeros((1, 4))])

@@ -51,9 +51,7 @@ class Engine:
         if not candidates:
             raise ValueError("nothing to solve")
         with precise_cpu():
-            chunks = [
-                self._stack(candidates[k : k + self.batch]) for k in range(0, len(candidates), self.batch)
-            ]
+            chunks = [self._stack(candidates[k : k + self.batch]) for k in range(0, len(candidates), self.batch)]
             begin = time.perf_counter()
             executable, seconds = self._executable(chunks[0])
             self.compile_seconds += seconds

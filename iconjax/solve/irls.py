@@ -4,8 +4,8 @@ The loss of a candidate is
 
     hard / 2 * sum(primary^2)  +  sum_w |soft|  +  sum_i inertia_i / 2 * z_i^2 + sparsity_i * |z_i|.
 
-Absolute values (smoothed over `eps` pixels, which shrinks from iteration to iteration) make soft terms all-or-nothing: a
-joint holds exactly or is given up whole, a part that nobody asked to move either has to or stays exactly where it was.
+Absolute values (smoothed over `eps` pixels, which shrinks from iteration to iteration) make soft terms all-or-nothing:
+a joint holds exactly or is given up whole, a part that nobody asked to move either has to or stays exactly where it was.
 They are minimised by iteratively reweighted least squares. The weight of primaries is so large that no sum of soft
 forces bends one by a hundredth of a pixel.
 """
@@ -16,19 +16,19 @@ from typing import NamedTuple
 
 import jax
 import jax.numpy as jnp
-from jaxtyping import Array, Bool, Float, Int
+from jaxtyping import Bool, Float, Int
 
 from iconjax.solve.arrays import Candidate, Problem, Solution
 from iconjax.solve.coherence import box_rows, joint_rows, one_hot_bodies
 from iconjax.solve.linear import solve_positive
-from iconjax.solve.pose import DOF, jacobians, matrices
+from iconjax.solve.pose import DOF, Array, jacobians, matrices
 from iconjax.solve.program import residuals, segment_matrices
 from iconjax.solve.table import OperatorTable
 
 HARD = 1e4
 """Weight of a squared primary residual (px) against soft forces of order 1 to 30."""
 HARD_START, HARD_RATE = 0.5, 2.2
-"""It begins small and grows by this factor an iteration: with a stiff valley from the start, steps along it are tiny."""
+"""It begins small and grows by this factor an iteration: in a valley that is stiff at once, steps along it are tiny."""
 EPS_START, EPS_END, EPS_RATE = 12.0, 0.02, 0.6
 """Smoothing of absolute values, px: first, last, factor an iteration."""
 DAMPING_START, DAMPING_LOW, DAMPING_HIGH = 1e-2, 1e-6, 1e8
@@ -45,9 +45,7 @@ class System(NamedTuple):
     weight: Float[Array, " S"]
 
 
-def linearise(
-    problem: Problem, cand: Candidate, z: Float[Array, "K 5"], table: OperatorTable, wide: bool
-) -> System:
+def linearise(problem: Problem, cand: Candidate, z: Float[Array, "K 5"], table: OperatorTable, wide: bool) -> System:
     """All residuals of a candidate at parameters `z`, with their derivatives."""
     bodies = cand.bodies
     k = z.shape[0]
@@ -90,9 +88,7 @@ def _step(
     flat, free = z.reshape(-1), bodies.free.reshape(-1)
     pull = system.weight / _smooth(system.norm, eps)
     own = (bodies.inertia + bodies.sparsity / _smooth(z, eps)).reshape(-1) * free
-    gradient = (
-        hard * system.primary @ system.primary_slope + (pull * system.soft) @ system.soft_slope + own * flat
-    )
+    gradient = hard * system.primary @ system.primary_slope + (pull * system.soft) @ system.soft_slope + own * flat
     curvature = hard * system.primary_slope.T @ system.primary_slope
     curvature += (system.soft_slope * pull[:, None]).T @ system.soft_slope
     diagonal = jnp.diagonal(curvature) + own
@@ -107,7 +103,7 @@ class _State(NamedTuple):
     system: System
     trial: Float[Array, "K 5"]
     damping: Float[Array, ""]
-    count: Int[Array, ""]
+    turn: Int[Array, ""]
     done: Bool[Array, ""]
 
 
@@ -129,10 +125,10 @@ def solve(
 
     def body(state: _State) -> _State:
         # One linearisation a turn: judge the trial point, then step from the better of it and the point before.
-        first = state.count == 0
-        eps = jnp.maximum(EPS_END, EPS_START * EPS_RATE**state.count)
+        first = state.turn == 0
+        eps = jnp.maximum(EPS_END, EPS_START * EPS_RATE**state.turn)
         system = at(state.trial)
-        hard = jnp.minimum(HARD, HARD_START * HARD_RATE**state.count)
+        hard = jnp.minimum(HARD, HARD_START * HARD_RATE**state.turn)
         before = loss_of(state.system, cand, state.z, eps, hard)
         after = loss_of(system, cand, state.trial, eps, hard)
         better = first | (jnp.isfinite(after) & (after <= before + 1e-9 * jnp.abs(before)))
@@ -143,12 +139,12 @@ def solve(
         small = jnp.max(jnp.abs(step)) < 2e-4
         flat = better & ~first & (before - after < 1e-6 * (1 + before))
         done = (eps <= EPS_END) & (hard >= HARD) & (small | flat) | (damping >= DAMPING_HIGH)
-        return _State(z, system, z + step, jnp.clip(damping, DAMPING_LOW, DAMPING_HIGH), state.count + 1, done)
+        return _State(z, system, z + step, jnp.clip(damping, DAMPING_LOW, DAMPING_HIGH), state.turn + 1, done)
 
     shapes = jax.eval_shape(at, start)
     nothing = jax.tree.map(lambda x: jnp.zeros(x.shape, x.dtype), shapes)
     first = _State(start, nothing, start, jnp.asarray(DAMPING_START), jnp.asarray(0), jnp.asarray(False))
-    last = jax.lax.while_loop(lambda s: ~s.done & (s.count < iterations), body, first)
+    last = jax.lax.while_loop(lambda s: ~s.done & (s.turn < iterations), body, first)
     segments = segment_matrices(matrices(last.z, bodies), cand.body)[:-1]
     loss = loss_of(last.system, cand, last.z, jnp.asarray(EPS_END), jnp.asarray(HARD))
     return Solution(last.z, segments, last.system.primary, loss)

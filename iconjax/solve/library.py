@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import Any
 
 import jax
@@ -39,9 +40,17 @@ def _staged(solve_stage: Any, objective: Objective) -> Flat:
     return jax.lax.scan(stage, objective.start, levels(objective.staged))[0]
 
 
+def _jaxopt() -> Any:
+    """jaxopt warns whoever imports it that it gets no new features."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DeprecationWarning)
+        import jaxopt
+    return jaxopt
+
+
 def lbfgs(objective: Objective) -> Flat:
     """`jaxopt.LBFGS` with a backtracking line search."""
-    import jaxopt
+    jaxopt = _jaxopt()
 
     def loss(z: Flat, level: Level) -> tuple[tuple[Float[Array, ""], None], Flat]:
         value, slope = objective.value_and_slope(z, level)

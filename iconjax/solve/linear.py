@@ -1,7 +1,7 @@
 """Solving small symmetric positive definite systems in plain JAX.
 
-LAPACK's batched factorisations wait inside XLA's own thread pool; two executables that run at once, as ours do, can then
-wait for each other for ever. Block elimination needs no call out of XLA, and batches well.
+LAPACK's batched factorisations wait inside XLA's own thread pool; two executables that run at once, as ours do, can
+then wait for each other for ever. Block elimination needs no call out of XLA, and batches well.
 """
 
 from __future__ import annotations
@@ -36,4 +36,5 @@ def solve_positive(matrix: Float[Array, "v v"], right: Float[Array, " v"], block
         work = work - columns @ scaled
         return jax.lax.dynamic_update_slice(work, scaled, (at, 0))
 
-    return jax.lax.fori_loop(0, size // block, eliminate, work)[:, -1]
+    solved: Array = jax.lax.fori_loop(0, size // block, eliminate, work)
+    return solved[:, -1]

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
-from jaxtyping import Array, Float
+from jaxtyping import Float
 
+Array = Any  # a JAX array inside a solve, a numpy one outside
 DOF = 5
 """Degrees of freedom of one body: x and y translation, rotation, scaling along its own x and y axis."""
 IDENTITY = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0)

@@ -13,11 +13,13 @@ from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
-from jaxtyping import Array, Float, Int
+from jaxtyping import Float, Int
 
 from iconjax.dsl.region import Region
 from iconjax.solve.arrays import Code, Regions
+from iconjax.solve.pose import Array
 from iconjax.solve.table import OperatorTable
+
 
 def segment_matrices(matrices: Float[Array, "K 6"], body: Int[Array, " N"]) -> Float[Array, "N1 6"]:
     """Transform of each segment, and of the segment that never moves as the last one."""
@@ -31,9 +33,7 @@ def move(points: Float[Array, "*n 2"], matrix: Float[Array, "*n 6"]) -> Float[Ar
     """Points under one transform each."""
     x, y = points[..., 0], points[..., 1]
     m = matrix
-    return jnp.stack(
-        [m[..., 0] * x + m[..., 1] * y + m[..., 2], m[..., 3] * x + m[..., 4] * y + m[..., 5]], axis=-1
-    )
+    return jnp.stack([m[..., 0] * x + m[..., 1] * y + m[..., 2], m[..., 3] * x + m[..., 4] * y + m[..., 5]], axis=-1)
 
 
 class _Posed(NamedTuple):
@@ -77,11 +77,12 @@ def _leaf_branches(regions: Regions, table: OperatorTable, wide: bool) -> Sequen
         if second is None:
             return _region(regions, k, first)
         # An intersection is as large as both of its regions together, so that in this mode all regions are.
-        return jax.lax.cond(
+        region: Region = jax.lax.cond(
             regions.second[k] >= 0,
             lambda: table.inter(_region(regions, regions.first[k], first), _region(regions, regions.second[k], second)),
             lambda: _widened(_region(regions, k, first)),
         )
+        return region
 
     def branch(kind: str, function: Callable[..., Any]) -> Callable[..., Any]:
         def run(pa: _Operand, pb: _Operand, a, b, extra):  # type: ignore[no-untyped-def]

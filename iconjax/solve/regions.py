@@ -139,7 +139,7 @@ def _fill(out: Regions, k: int, materials: Sequence[Material], still: int) -> No
 
 
 def _counts(sizes: Float[np.ndarray, " m"], total: int) -> list[int]:
-    """Points for each of several outlines by size, at least four each; the smallest get none where there are too many."""
+    """Points for each of several outlines by size, at least four each; the smallest get none if there are too many."""
     counts = np.zeros(len(sizes), int)
     chosen = np.argsort(-sizes, kind="stable")[: total // 4]
     counts[chosen] = 4 + allot(sizes[chosen], total - 4 * len(chosen))

@@ -30,7 +30,7 @@ class OperatorTable(NamedTuple):
     digest: str
 
     def leaf(self, name: str, component: int = 0, unit: Unit | None = None) -> int | None:
-        """Number of component `component` of leaf operator `name` (for a specifier: of its residual); None for a step."""
+        """Number of component `component` of leaf operator `name` (for a specifier: of its residual), or None."""
         return _find(self.leaf_keys, name, component, unit)
 
     def step(self, name: str, component: int = 0, unit: Unit | None = None) -> int:
@@ -83,7 +83,10 @@ def _number(registry: Registry, pairs: bool) -> OperatorTable:
             if unit and function is plain:
                 continue
             for component in range(operator.residual_size):
-                key, one = _key(operator.name, component, unit), _component(function, component, operator.residual_size)
+                key, one = (
+                    _key(operator.name, component, unit),
+                    _component(function, component, operator.residual_size),
+                )
                 kind = _kind(operator)
                 if kind == "values":
                     steps.append((key, one))
@@ -92,9 +95,14 @@ def _number(registry: Registry, pairs: bool) -> OperatorTable:
     text = "|".join([*(k + d for k, d, _ in leaves), *(k for k, _ in steps)])
     own = "+".join(str(getattr(m, "__name__", m)) for m in registry.modules)
     return OperatorTable(
-        *zip(*leaves, strict=True), *zip(*steps, strict=True), registry.function("inter"),
-        hashlib.sha256(f"{text}|{own}".encode()).hexdigest()[:16],
-    )  # fmt: skip
+        leaf_keys=tuple(key for key, _, _ in leaves),
+        leaf_kinds=tuple(kind for _, kind, _ in leaves),
+        leaf_functions=tuple(function for _, _, function in leaves),
+        step_keys=tuple(key for key, _ in steps),
+        step_functions=tuple(function for _, function in steps),
+        inter=registry.function("inter"),
+        digest=hashlib.sha256(f"{text}|{own}".encode()).hexdigest()[:16],
+    )
 
 
 def _function(registry: Registry, operator: Operator, unit: Unit | None) -> Callable[..., Any]:

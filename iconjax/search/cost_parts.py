@@ -1,0 +1,101 @@
+"""Costs of what parts do: unasked motion, unasked kinds of motion, and what was asked but did not happen."""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+import numpy as np
+
+from iconjax.search.evidence import Evidence, Terms
+from iconjax.search.motion import STILL_PX, same_motion
+from iconjax.search.state import scale_kind
+
+
+def unasked_costs(e: Evidence) -> Terms:
+    """Cost of every distinct motion that nobody asked for, once for all segments that share it."""
+    case, costs = e.case, e.case.costs
+    for members in _groups(e):
+        matrix = e.matrices[members[0]]
+        along = any(same_motion(matrix, e.matrices[i]) for i in case.asked_segments)
+        yield ("along", costs.along) if along else ("moved", costs.moved)
+        for i in members:
+            if case.facts.host[i] not in members:
+                yield from _carried_off(e, i, along)
+            yield from _distorted(e, i)
+
+
+def _groups(e: Evidence) -> list[list[int]]:
+    """Unasked segments that moved, by their motion."""
+    groups: list[list[int]] = []
+    for i in range(len(e.matrices)):
+        if not e.moved(i) or e.case.asked[i]:
+            continue
+        same = next((g for g in groups if same_motion(e.matrices[g[0]], e.matrices[i])), None)
+        if same is None:
+            groups.append([i])
+        else:
+            same.append(i)
+    return groups
+
+
+def _carried_off(e: Evidence, i: int, along: bool) -> Terms:
+    case, costs, turn = e.case, e.case.costs, abs(e.motion.turn[i])
+    area = float(case.facts.area[i])
+    far = min(1.0, float(e.motion.shift[i]) / (20 * case.unit))
+    yield "moved", costs.moved_area * area * far * (0.5 if along else 1.0)
+    if turn > 0.3:
+        weight = costs.turned * (2 * area if along else 1.0) + (costs.hung if case.facts.hung[i] else 0.0)
+        yield "turned", weight * min(1.0, turn / 10)
+    if case.facts.grounded[i]:
+        weight = costs.uprooted * (0.5 if along else 1.0) * (1 + min(1.0, turn / 10))
+        yield "uprooted", weight * min(1.0, e.lifted(i) / 20)
+
+
+def _distorted(e: Evidence, i: int) -> Terms:
+    costs, facts, stretch = e.case.costs, e.case.facts, e.motion.stretch(i)
+    if stretch < 0.005:
+        return
+    detail = facts.host[i] is not None
+    yield "stretched", costs.stretched * (0.15 if detail else 1.0) * (0.3 + min(1.0, stretch))
+    if facts.round[i]:
+        long, short = e.motion.scales[i]
+        yield "squashed", costs.squashed * min(1.0, 3 * float(np.log(long / max(short, 1e-3))))
+
+
+def idle_costs(e: Evidence) -> Terms:
+    """Kinds of motion that were asked and did not happen: a specifier is meant."""
+    case, costs, intent = e.case, e.case.costs, e.case.setting.intent
+    for thing in intent.things:
+        members = list(thing.members)
+        if "rotate" in thing.kinds:
+            yield "idle", costs.idle_specifier * float((np.abs(e.motion.turn[members]) < 1.0).mean())
+        if "scale" in thing.kinds and max(e.motion.stretch(i) for i in members) < 0.01:
+            yield "idle", costs.idle_specifier
+        if "translate" in thing.kinds:
+            idle = float((e.motion.shift[members] < STILL_PX * case.unit).mean())
+            yield "idle", costs.idle_specifier * (idle if 0 < idle < 1 else idle / 4)
+    for first, second in intent.hinged:
+        if abs(e.motion.turn[min(first)] - e.motion.turn[min(second)]) < 0.5:
+            yield "idle", costs.idle_specifier
+
+
+def asked_costs(e: Evidence) -> Terms:
+    """Unasked kinds of change of asked parts, how much they change, and whether things asked alike move alike."""
+    case, costs, turn = e.case, e.case.costs, np.abs(e.motion.turn)
+    asked = case.asked_segments
+    if asked:
+        yield "amount", costs.amount * float(e.motion.shift[asked].mean()) / case.unit
+    turning = [t.members[0] for t in case.setting.intent.things if t.kinds == {"rotate"}]
+    for i, j in combinations(turning, 2):
+        apart = float(abs(turn[i] - turn[j]))
+        yield "uneven", costs.uneven * min(1.0, apart / 10) if apart > 0.5 else 0.0
+    for i in asked:
+        kinds, stretch = case.asked[i], e.motion.stretch(i)
+        if case.facts.grounded[i] and not kinds & {"translate", "rotate"} and e.lifted(i) > 1.5:
+            yield "uprooted", costs.uprooted * min(1.0, e.lifted(i) / 20)
+        if "rotate" not in kinds and turn[i] > 0.3:
+            yield "extra", costs.extra * min(1.0, 0.3 + float(turn[i]) / 10)
+        if "scale" not in kinds and stretch > 0.005:
+            yield "extra", costs.extra * min(1.0, 0.3 + stretch)
+        elif scale_kind(e.state.mode(i)) and stretch > 1.2:
+            yield "extra", 0.5 * (stretch - 1.2)
