@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from engine_support import STILL, disc, met, moved_box, picture, program, rect, 
 from iconjax.search.coherent import CoherentSearch
 from iconjax.search.config import SearchConfig
 from iconjax.search.setup import prepare
+from iconjax.search.state import State
 
 SCENES = {
     "lamp": {
@@ -205,6 +207,18 @@ def test_the_trace_lists_every_candidate_that_was_solved():
     search = CoherentSearch(prepare(scene(at), program(scene(at), text), SearchConfig()), SearchConfig())
     search.run()
     assert len(search.entries) == search.engine.solved > 5
+
+
+def test_what_hardly_moved_is_put_back_exactly():
+    at, text = EDITS["ball up"]
+    search = CoherentSearch(prepare(scene(at), program(scene(at), text), SearchConfig()), SearchConfig())
+    (trial,) = search._solve([(State(("N", "N", "T", "T")), np.zeros((4, 5)))])
+    trembling = trial.matrices.copy()
+    trembling[2, 2] += 0.1  # the table, a tenth of a pixel to the right
+    settled = search._settle(replace(trial, matrices=trembling))
+    assert settled.state.modes == ("N", "N", "N", "T")
+    assert np.array_equal(settled.matrices[2].reshape(2, 3), STILL)
+    assert np.allclose(settled.matrices[3], trial.matrices[3], atol=1e-3)
 
 
 def test_every_relation_is_reported_with_its_end():

@@ -150,7 +150,7 @@ def test_a_simple_request_is_met_with_every_relation_kept(narrower):
 
 
 def test_the_trace_tells_what_was_tried(narrower):
-    scene, outcome = narrower
+    _, outcome = narrower
     first, *rest = outcome.trace
     assert (first.origin, first.kept) == ("initial state", True)
     assert first.motion == {"Lamp:Shade": "TS", "Lamp:Foot": "TRS", "Table": "TRS"}

@@ -141,18 +141,26 @@ def test_several_threads_may_ask_at_once(folder):
     assert results == [[12, 13, 14, 15]] * 4
 
 
-def test_double_precision_ends_with_its_block_and_stays_in_its_thread():
+@pytest.fixture
+def single_precision():
+    """JAX as it starts, whatever ran before; a change made for good would show."""
     before = jax.config.jax_enable_x64
+    jax.config.update("jax_enable_x64", False)
+    yield
+    jax.config.update("jax_enable_x64", before)
+
+
+def test_double_precision_ends_with_its_block_and_stays_in_its_thread(single_precision):
     seen = []
     with cache.precise_cpu():
         assert jnp.asarray(np.ones(1)).dtype == jnp.float64
         thread = threading.Thread(target=lambda: seen.append(jax.config.jax_enable_x64))
         thread.start()
         thread.join()
-    assert jax.config.jax_enable_x64 == before and seen == [before]
+    assert not jax.config.jax_enable_x64 and seen == [False]
 
 
-def test_a_search_leaves_the_callers_jax_as_it_was():
+def test_a_search_leaves_the_callers_jax_as_it_was(single_precision):
     watched = ("jax_enable_x64", "jax_default_device", "jax_platforms", "jax_compilation_cache_dir", "jax_debug_nans")
     before = {name: getattr(jax.config, name) for name in watched}
     dtype = jnp.asarray(np.ones(1)).dtype

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import jax
-import jax.numpy as jnp
 import numpy as np
 import pytest
 import solve_support as support
@@ -87,7 +86,7 @@ def test_slopes_agree_with_finite_differences(setup, candidates):
 
 
 def test_a_solver_keeps_its_start_where_nothing_is_free(setup, candidates, solved):
-    still = candidates[0]._replace(bodies=candidates[0].bodies._replace(free=jnp.zeros_like(candidates[0].bodies.free)))
+    still = candidates[0]._replace(bodies=candidates[0].bodies._replace(free=np.zeros_like(candidates[0].bodies.free)))
     engine = Engine(setup.problem, setup.table, setup.compiled.wide, "adam", batch=2)
     solved("adam")
     found = engine.solve([still])

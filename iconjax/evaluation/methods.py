@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, field
-from importlib import import_module
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -160,20 +158,21 @@ class _IconjaxEditor:
 
 def measure_reference(case: EvalCase, transforms: Transforms) -> tuple[ConstraintReport, ...] | None:
     """Measure the reference program of a case on an edit; None where there is no program."""
-    if case.program is None or not _available("iconjax.search.measure", "iconjax.dsl.parse"):
+    if case.program is None:
         return None
+    from iconjax.dsl.parse import parse
+    from iconjax.search.measure import measure_program  # JAX is not needed to load the module
+
     scene = _scene(case)
-    program = import_module("iconjax.dsl.parse").parse(case.program, scene.names, scene.objects)
-    measure = import_module("iconjax.search.measure").measure_program
-    return tuple(measure(scene, program, _stack(case, transforms)))
+    return measure_program(scene, parse(case.program, scene.names, scene.objects), _stack(case, transforms))
 
 
-def _draw(case: EvalCase, transforms: Transforms) -> UInt8[np.ndarray, "H W 3"] | None:
-    if not _available("iconjax.render.raster", "iconjax.render.depth"):
-        return None
+def _draw(case: EvalCase, transforms: Transforms) -> UInt8[np.ndarray, "H W 3"]:
+    from iconjax.render.depth import depth_order
+    from iconjax.render.raster import render
+
     scene = _scene(case)
-    order = import_module("iconjax.render.depth").depth_order(scene).order
-    return np.asarray(import_module("iconjax.render.raster").render(scene, _stack(case, transforms), order))
+    return render(scene, _stack(case, transforms), depth_order(scene).order)
 
 
 def _scene(case: EvalCase) -> Scene:
@@ -184,7 +183,3 @@ def _scene(case: EvalCase) -> Scene:
 
 def _stack(case: EvalCase, transforms: Transforms) -> Float[np.ndarray, "n 2 3"]:
     return np.stack(list(read_transforms(transforms, sorted(case.labels)).values()))
-
-
-def _available(*modules: str) -> bool:
-    return all(find_spec(module) is not None for module in modules)

@@ -121,7 +121,7 @@ def _next(
     if word in ("as", "than", "same", "too") and reach <= i + 1:
         return word, "", None, i + 1
     if lexical is not None:
-        return _meaning(*lexical, words, quantities, phrases)
+        return _meaning(i, *lexical, words, quantities, phrases)
     if lexicon.knows(word, {"stop"}) or word in ("whole", "entire", "both"):
         stop = lexicon.match(words, i, "stop")
         return "stop", "", None, stop[1] if stop else i + 1
@@ -129,13 +129,16 @@ def _next(
 
 
 def _meaning(
-    entry: Entry, end: int, words: Sequence[str], quantities: QuantityReader, phrases: PhraseReader
+    i: int, entry: Entry, end: int, words: Sequence[str], quantities: QuantityReader, phrases: PhraseReader
 ) -> tuple[str, str, Any, int]:
     """What a lexical reading comes to where it stands."""
     if entry.value == "around" and _natural(words, end, phrases.lexicon, phrases.names):
         return "stop", "", None, end + 2
     if _idle(entry, end, words, quantities, phrases):
         return "stop", "", None, end
+    announced = i > 0 and words[i - 1] in ("the", "a", "an", "its", "their")
+    if entry.category == "verb" and entry.value != "make" and announced:
+        return "unknown", "", None, end  # "the wind": a thing that the picture does not have
     return ("without" if entry.value == "without" else entry.category), entry.value, entry, end
 
 

@@ -65,6 +65,8 @@ class Context:
         return self._all(phrases, theme, "")
 
     def _all(self, phrases: Sequence[Phrase], theme: Sequence[str], relation: str) -> Reference:
+        if not phrases:
+            raise TranslationError("what it should be related to is not said")
         found = []
         for index, phrase in enumerate(phrases):
             bare = not phrase.nouns and not phrase.pronoun and not phrase.special and not phrase.side

@@ -26,7 +26,8 @@ def move(out: Collector, clause: Clause) -> None:
 
 def distance(out: Collector, clause: Clause, name: str, axis: int, sign: int) -> str | float:
     amount = clause.amount
-    assert amount is not None
+    if amount is None:
+        raise TranslationError(f"how far {quoted(name)} should move {clause.direction} is not said")
     if amount.unit in ("px", "none"):
         return sign * amount.value
     if amount.unit == "deg":

@@ -12,7 +12,7 @@ from iconjax.language.shapes import Shapes
 from iconjax.language.words import mend
 from iconjax.scene.types import Scene
 
-ADJECTIVAL = ("ed", "ish", "ous", "ive", "ful", "less", "ical", "most")
+ADJECTIVAL = ("ed", "ing", "ish", "ous", "ive", "ful", "less", "ical", "most")
 """Endings of adjectives: such words describe, and name nothing."""
 THINGS = frozenset({"loose", "joint", "partlike", "kind"})
 """Categories of words that are names of things only, and mean nothing where the picture has no such thing."""

@@ -128,7 +128,11 @@ class NounReader:
         """The word at `i` where it means nothing at all here."""
         word = self.word(i)
         meanings = {e.category for e in self.lexicon.phrases.get((word,), ())}
-        grammar = bool(meanings - THINGS) or (not meanings and word in self.lexicon.words)
+        if self.word(i - 1) in ("the", "a", "an", "its", "their") and self.noun_at(i + 1, False):
+            meanings -= {"verb"}  # "the lift gate"
+        grammar = bool(meanings - THINGS) or (
+            not meanings and word in self.lexicon.words and (word,) not in self.lexicon.phrases
+        )
         known = grammar or self.names.hear(word) is not None
         return () if known or not word.isalpha() else (word,)
 

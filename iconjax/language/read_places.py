@@ -26,6 +26,13 @@ def move(context: Context, slots: Slots, theme: Reference, relations: list[Relat
     yield from _distances(context, slots, names, shifts, relations)
     context.direction = direction if followed(slots) else ""
     targets = [r for r in relations if r.kind != "along"]
+    nearing = [r for r in targets if r.kind in ("toward", "away") and slots.amount is None and r.reference]
+    if nearing and followed(slots):
+        # "bring it closer to the cup until ...": how far, the next clause says
+        for relation in nearing:
+            reached = context.reference(relation.reference, names).names
+            context.mentions.insert(0, reached)
+            targets.remove(relation)
     for relation in targets:
         clause = related(context, relation, theme, direction, slots)
         if sides and clause.relation in ("beside", "touch"):

@@ -32,8 +32,8 @@ class Alignment:
     Attributes:
         a, b: segments.
         feature: 0..5 for min x, centre x, max x, min y, centre y, max y.
-        reason: "touching", "siblings", "ground", "support" for what is put on top of something, "overhang" for what does
-            not stick out beyond what it rests on, "floor" for what does not sink into the ground.
+        reason: "touching", "siblings", "ground", "support" for what is put on top of something, "overhang" for what
+            does not stick out beyond what it rests on, "floor" for what does not sink into the ground.
         low, high: how much less or more than before the difference of the two features may be, px.
         wanted: difference of the two features to aim at where it is not the one before, px.
     """

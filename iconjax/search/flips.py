@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from iconjax.relations.graph import neighbours
 from iconjax.search.candidate import Setting, members_of
 from iconjax.search.cost import Judgement
-from iconjax.search.starts import neighbours
 from iconjax.search.state import Mode, State, scale_kind
 
 FREEDOMS = ("N", "T", "TR", "TSx", "TSy", "TSu", "TSl")

@@ -14,6 +14,7 @@ from iconjax.dsl.registry import Registry, default_registry
 from iconjax.dsl.units import Unit
 from iconjax.errors import InputError
 from iconjax.relations.detect import detect_relations
+from iconjax.relations.graph import relation_graph
 from iconjax.relations.types import Relation
 from iconjax.scene.types import Scene
 from iconjax.search.candidate import Setting, Sizes
@@ -105,9 +106,8 @@ def prepare(scene: Scene, program: Program, config: SearchConfig, registry: Regi
 
 
 def _pieces(count: int, relations: Sequence[Relation]) -> tuple[int, ...]:
-    graph = nx.Graph()
-    graph.add_nodes_from(range(count))
-    graph.add_edges_from((r.a, r.b) for r in relations if r.scope != "inter" and r.kind != "near")
+    firm = [r for r in relations if r.scope != "inter" and r.kind != "near"]
+    graph = relation_graph(firm, range(count))
     number = {i: k for k, piece in enumerate(nx.connected_components(graph)) for i in piece}
     return tuple(number[i] for i in range(count))
 

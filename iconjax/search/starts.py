@@ -7,7 +7,7 @@ from itertools import product
 
 import networkx as nx
 
-from iconjax.relations.types import Relation
+from iconjax.relations.graph import neighbours, relation_graph
 from iconjax.search.candidate import Setting
 from iconjax.search.facts import Facts
 from iconjax.search.intent import Thing
@@ -41,14 +41,6 @@ def asked_mode(facts: Facts, things: Sequence[Thing], leader: int, alone: bool) 
     return mode + ("Sl" if slim else "Su")
 
 
-def links(relations: Sequence[Relation], nodes: Sequence[int] | set[int]) -> nx.Graph:
-    """The relation graph among some segments."""
-    graph = nx.Graph()
-    graph.add_nodes_from(nodes)
-    graph.add_edges_from((r.a, r.b) for r in relations if r.a in graph and r.b in graph)
-    return graph
-
-
 def asked_state(setting: Setting) -> State:
     """Only what the request names is free, in the ways it asks; details go with their hosts."""
     facts, intent = setting.facts, setting.intent
@@ -67,7 +59,7 @@ def asked_state(setting: Setting) -> State:
         if len(rest) == len([i for i in thing.members if not modes[i].startswith("W:")]):
             groups = [set(rest)] if rest else []
         else:
-            groups = [set(g) for g in nx.connected_components(links(setting.relations, rest))]
+            groups = [set(g) for g in nx.connected_components(relation_graph(setting.relations, rest))]
         for group in groups:
             leader = max(group, key=lambda i: facts.area[i])
             modes[leader] = asked_mode(facts, intent.things_of(leader), leader, len(group) == 1)
@@ -95,16 +87,10 @@ def hanging(setting: Setting, base: State) -> list[set[int]]:
     idle = {i for i, m in enumerate(base.modes) if m == "N" and i not in intent.fixed and i not in asked}
     moving = {i for i in range(len(base.modes)) if base.mode(i) != "N"}
     sets = []
-    for group in nx.connected_components(links(setting.relations, idle)):
+    for group in nx.connected_components(relation_graph(setting.relations, idle)):
         if neighbours(setting.relations, group) & moving or group & intent.mentioned:
             sets.append(set(group))
     return sorted(sets, key=lambda g: -sum(setting.facts.area[i] for i in g))
-
-
-def neighbours(relations: Sequence[Relation], group: set[int]) -> set[int]:
-    """Segments outside `group` that are related to one in it."""
-    near = {r.b for r in relations if r.a in group} | {r.a for r in relations if r.b in group}
-    return near - group
 
 
 def group_modes(group: set[int], leader: int, mode: Mode) -> dict[int, Mode]:
