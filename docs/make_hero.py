@@ -20,7 +20,7 @@ CASES = (
     "ferris-wheel-turn",
     "pot-halved",
     "excavator-boom",
-    "telescope-level",
+    "cake-sponge-half",
     "bathtub-shower",
 )
 SCALE = 2  # drawn at twice the size it is shown at

@@ -1,7 +1,7 @@
 """Do the weights generalise? A leave-some-out check of the default search's cost table.
 
-Every setting scales one group of weights by a factor. All cases are edited once with each setting; then, for each of three
-folds, the setting that is best on the other two thirds is applied to the fold. What this reports is what tuning on cases
+Every setting scales one group of weights by a factor. All cases are edited once with each setting; then, for each of
+three folds, the setting that is best on the other two thirds is applied to the fold. This tells what tuning on cases
 that one has would give on cases that one has not.
 
     python eval/tune.py eval/benchmark --out DIR [--factors 0.5 2] [--groups moved slid ...]

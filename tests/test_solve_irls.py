@@ -194,6 +194,20 @@ def test_what_holds_on_follows_and_what_is_let_go_stays(bench):
         assert np.array_equal(bench.matrix(found, name, 1), STILL)
 
 
+def test_what_nobody_asked_to_move_resists_a_weak_pull(bench):
+    plain = bench.candidate(Roof="T", Storey="T")
+    names = bench.scene.names
+    pairs = [{names[r.a], names[r.b]} for r in bench.setup.setting.relations]
+    weak = np.zeros_like(plain.hold)
+    weak[pairs.index({"Tower:Roof", "Tower:Storey"})] = 0.03
+    pulled = unjoined(plain)._replace(hold=weak, ends=weak)
+    assert pulled.bodies.sparsity[0, 0] > 3 * 0.03
+    willing = with_bodies(pulled, sparsity=np.zeros_like(plain.bodies.sparsity))
+    found = bench.solve(pulled, willing)
+    assert np.allclose(bench.matrix(found, "Storey"), STILL, atol=0.05)
+    assert np.allclose(bench.matrix(found, "Storey", 1)[:, 2], [20, 0], atol=0.5)
+
+
 def test_masked_parameters_stay_zero_even_where_the_start_says_otherwise(bench):
     candidate = bench.candidate(Roof="T")
     pushed = with_bodies(candidate, start=np.full_like(candidate.bodies.start, 9.0))

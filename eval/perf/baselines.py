@@ -1,8 +1,8 @@
 """The same loss minimised one candidate at a time, as one would without this engine.
 
 "Eager" is JAX under `jax.disable_jit()`: every operation is dispatched by itself. (Without it, un-jitted code still
-compiles each loop and switch anew on every call, which is slower by far.) "Jitted" is one compiled function for value and
-slope, called from a Python loop. All use the value and slope of `iconjax.solve.objective.Coherent`.
+compiles each loop and switch anew on every call, which is slower by far.) "Jitted" is one compiled function for value
+and slope, called from a Python loop. All use the value and slope of `iconjax.solve.objective.Coherent`.
 """
 
 from __future__ import annotations

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 
+from iconjax.errors import TranslationError
 from iconjax.language.clauses import Clause
 from iconjax.language.collector import Collector
 from iconjax.language.emit_keeps import keep, stay
@@ -63,4 +64,7 @@ def emit(clauses: Sequence[Clause], shapes: Shapes) -> tuple[str, ...]:
             out.turned.update(clause.theme)
     for clause in clauses:
         ACTIONS[clause.action](out, clause)
-    return out.lines()
+    lines = out.lines()
+    if any('"@' in line for line in lines):
+        raise TranslationError("an end or a side is named, and not of what")
+    return lines

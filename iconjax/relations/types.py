@@ -43,7 +43,7 @@ class Relation:
 
     Attributes:
         kind: "inside" (a lies in b), "contain" (b lies in a), "overlap" (they are connected), or "near" (parts of one
-            object that only lie close to each other; beyond the paper, so that such an object still moves as one).
+            object, or a lone object and the nearest other, that only lie close to each other; beyond the paper).
         scope: paper's types: between objects, crucial or not within an object.
         contact: where they meet.
         embedded: a lies in or on b to such an extent that it is a detail of b (kind "inside" only).

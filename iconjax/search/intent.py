@@ -144,7 +144,7 @@ def _spoken(constraints: list[Call], scene: Scene) -> list[tuple[tuple[int, ...]
     found: list[tuple[tuple[int, ...], frozenset[str], bool]] = []
 
     def visit(node: Node) -> None:
-        if not isinstance(node, Call):
+        if not isinstance(node, Call) or node.name == "old":
             return
         members = [m for a in node.args if isinstance(a, SegmentRef | Call) and (m := _region(a, scene))]
         for m in members:

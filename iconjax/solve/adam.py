@@ -12,7 +12,7 @@ from iconjax.solve import irls
 from iconjax.solve.objective import SHARP, Flat, Level, Objective
 
 RATE_START, RATE_END = 10.0, 0.02
-"""Step in pixels: the paper's first one, and where the decay ends (the paper only says that it decreases)."""
+"""Step in pixels of 512: the paper's first one, and where the decay ends (the paper only says that it falls)."""
 MEAN, SQUARE, TINY = 0.9, 0.999, 1e-8
 
 
@@ -47,7 +47,7 @@ def minimise(objective: Objective, iterations: int) -> Flat:
         better = (level.hard >= irls.HARD * (1 - 1e-9)) & (value < state.least)
         mean = MEAN * state.mean + (1 - MEAN) * slope
         square = SQUARE * state.square + (1 - SQUARE) * slope**2
-        rate = RATE_START * (RATE_END / RATE_START) ** (state.turn / iterations)
+        rate = objective.unit * RATE_START * (RATE_END / RATE_START) ** (state.turn / iterations)
         step = rate * (mean / (1 - MEAN**count)) / (jnp.sqrt(square / (1 - SQUARE**count)) + TINY)
         return _State(
             state.z - jnp.clip(step, -objective.most, objective.most) * objective.free,
@@ -60,5 +60,7 @@ def minimise(objective: Objective, iterations: int) -> Flat:
 
     zero = jnp.zeros_like(objective.start)
     first = _State(objective.start, zero, zero, objective.start, jnp.asarray(jnp.inf), jnp.asarray(0))
-    last = jax.lax.while_loop(lambda s: (s.turn < iterations) & (s.least > objective.good), body, first)
+    last = jax.lax.while_loop(
+        lambda s: (s.turn < iterations) & (s.least > objective.good * objective.unit), body, first
+    )
     return last.best

@@ -24,6 +24,8 @@ from jax.experimental import serialize_executable
 
 import iconjax
 
+KEPT = 32
+"""Executables that the cache folder holds at most; each takes some megabytes."""
 _memory: dict[str, Any] = {}
 OPTIONS: dict[str, str | bool] = {"xla_llvm_disable_expensive_passes": True}
 """Halves the compile time and costs no measurable speed on kernels this small (`docs/performance.md`)."""
@@ -102,6 +104,7 @@ def _store(key: str, executable: Any) -> None:
     folder = cache_folder()
     if folder is None:
         return
+    temporary = ""
     try:
         payload = pickle.dumps(serialize_executable.serialize(executable))
         folder.mkdir(parents=True, exist_ok=True, mode=0o700)
@@ -109,5 +112,14 @@ def _store(key: str, executable: Any) -> None:
         with os.fdopen(handle, "wb") as file:
             file.write(payload)
         os.replace(temporary, folder / f"{key}.xla")
+        _prune(folder)
     except Exception:  # a full or read-only disk must not stop an edit
-        return
+        if temporary:
+            Path(temporary).unlink(missing_ok=True)
+
+
+def _prune(folder: Path) -> None:
+    """Remove the executables that were stored longest ago, beyond the newest `KEPT`."""
+    stored = sorted(folder.glob("*.xla"), key=lambda path: path.stat().st_mtime, reverse=True)
+    for path in stored[KEPT:]:
+        path.unlink(missing_ok=True)

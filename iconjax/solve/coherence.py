@@ -74,8 +74,12 @@ def joint_rows(
     tangent = jnp.concatenate([c * tx - s * ty, s * tx + c * ty], -1)
     sliding = cand.slide[:, None, None] * tangent[:, :, None] * tangent[:, None, :]
     keep = jnp.eye(2) - sliding  # E 2 2
+    normal = jnp.stack([-tangent[:, 1], tangent[:, 0]], -1)
+    swing = tangent[:, :, None] * normal[:, None, :] + normal[:, :, None] * tangent[:, None, :]
+    bent = jnp.einsum("eij,epj->epi", -cand.slide[:, None, None] * swing, apart)  # the contact turns with its sides
     apart = jnp.einsum("eij,epj->epi", keep, apart)
     slope = jnp.einsum("eij,epkjv->epikv", keep, slope)
+    slope = slope.at[..., 2].add(bent[:, :, :, None] * turn_slope[:, None, None, :])
     norm = jnp.sqrt(jnp.sum(apart**2, -1, keepdims=True) + 1e-12)
     weight = jnp.stack([cand.hold, cand.ends, cand.ends], 1)[..., None]
     k = z.shape[0]

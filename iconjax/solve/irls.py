@@ -5,7 +5,8 @@ The loss of a candidate is
     hard / 2 * sum(primary^2)  +  sum_w |soft|  +  sum_i inertia_i / 2 * z_i^2 + sparsity_i * |z_i|.
 
 Absolute values (smoothed over `eps` pixels, which shrinks from iteration to iteration) make soft terms all-or-nothing:
-a joint holds exactly or is given up whole, a part that nobody asked to move either has to or stays where it was. They are minimised by iteratively reweighted least squares. The weight of primaries is so large that no sum of soft
+a joint holds exactly or is given up whole, a part that nobody asked to move either has to or stays where it was.
+They are minimised by iteratively reweighted least squares. The weight of primaries is so large that no sum of soft
 forces bends one by a hundredth of a pixel.
 """
 

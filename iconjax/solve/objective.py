@@ -45,8 +45,9 @@ class Objective(Protocol):
         start: (V,) where to begin.
         free: (V,) 1 where a parameter may move.
         most: (V,) longest sensible step.
+        unit: a pixel of a picture of 512 x 512, in pixels of this one.
         staged: whether the loss has levels of sharpness.
-        good: a loss that is low enough to stop at.
+        good: a loss, in such units, that is low enough to stop at.
     """
 
     staged: bool
@@ -58,6 +59,8 @@ class Objective(Protocol):
     def free(self) -> Flat: ...
     @property
     def most(self) -> Flat: ...
+    @property
+    def unit(self) -> Float[Array, ""]: ...
 
     def value_and_slope(self, z: Flat, level: Level) -> tuple[Float[Array, ""], Flat]:
         """The loss and its derivative."""
@@ -77,6 +80,7 @@ class Coherent:
         bodies = cand.bodies
         self.free = bodies.free.reshape(-1)
         self.start = bodies.start.reshape(-1) * self.free
+        self.unit = jnp.max(problem.canvas) / 512
         reach = jnp.full((bodies.radius.shape[0], 2), 0.5 * jnp.max(problem.canvas))
         self.most = jnp.concatenate([reach, jnp.repeat(0.6 * bodies.radius[:, None], 3, 1)], 1).reshape(-1)
         self.pairs = 6 * problem.joints.a.shape[0]  # rows of joints come in twos, one vector each

@@ -11,6 +11,8 @@ from jaxtyping import Float
 Array = Any  # a JAX array inside a solve, a numpy one outside
 DOF = 5
 """Degrees of freedom of one body: x and y translation, rotation, scaling along its own x and y axis."""
+LARGEST = 4.0
+"""Scale factors stay within exp(-LARGEST) and exp(LARGEST): nothing is shrunk to nothing."""
 IDENTITY = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0)
 
 
@@ -48,7 +50,8 @@ def _matrix(
     radius: Float[Array, ""],
     uniform: Float[Array, ""],
 ) -> Float[Array, "6"]:
-    turn, log_x, log_y = z[2] / radius, z[3] / radius, z[4] / radius
+    turn = z[2] / radius
+    log_x, log_y = jnp.clip(z[3:] / radius, -LARGEST, LARGEST)
     log_y = uniform * log_x + (1 - uniform) * log_y
     c, s = jnp.cos(axis), jnp.sin(axis)
     frame = jnp.array([[c, -s], [s, c]])

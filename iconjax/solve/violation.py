@@ -65,6 +65,7 @@ class MeanViolation:
         bodies = cand.bodies
         self.free = bodies.free.reshape(-1)
         self.start = bodies.start.reshape(-1) * self.free
+        self.unit = jnp.max(problem.canvas) / 512
         reach = jnp.full((bodies.radius.shape[0], 2), 0.5 * jnp.max(problem.canvas))
         self.most = jnp.concatenate([reach, jnp.repeat(0.6 * bodies.radius[:, None], 3, 1)], 1).reshape(-1)
         rows = jnp.repeat(problem.allowed.shape[0] - problem.a.shape[0] + jnp.arange(problem.a.shape[0]), 2)
