@@ -17,6 +17,7 @@ from iconjax.search.paper import PaperSearch
 from iconjax.search.paper_states import (
     PaperState,
     build_choice,
+    candidate_edges,
     flip_motion,
     flip_relations,
     initial_state,
@@ -60,8 +61,8 @@ def search():
 class Rel:
     """A relation, as far as flips look at it."""
 
-    def __init__(self, a, b, scope):
-        self.a, self.b, self.scope = a, b, scope
+    def __init__(self, a, b, scope, kind="overlap"):
+        self.a, self.b, self.scope, self.kind = a, b, scope, kind
 
 
 CHAIN = [Rel(0, 1, "inter"), Rel(1, 2, "intra"), Rel(2, 3, "intra-crucial"), Rel(3, 4, "inter")]
@@ -88,6 +89,11 @@ def test_fronts_spread_to_neighbours_not_seen_before():
     assert next_nodes([4], {0, 1, 2, 3, 4}, CHAIN, edges) == []
 
 
+def test_relations_nearest_to_the_request_come_first():
+    assert candidate_edges([4], CHAIN) == [3, 2, 1, 0]
+    assert candidate_edges([1], [*CHAIN, Rel(0, 4, "intra", "near"), Rel(5, 6, "intra")]) == [0, 1, 2, 3, 5]
+
+
 def test_subsets_are_all_or_bounded_with_the_whole_front_among_them():
     assert subsets((4, 7), 24) == ([(), (4,), (7,), (4, 7)], 4)
     chosen, count = subsets(tuple(range(9)), 6)
@@ -97,15 +103,15 @@ def test_subsets_are_all_or_bounded_with_the_whole_front_among_them():
 
 def test_states_begin_as_the_program_says():
     setup = support.prepared(('stay("Table")', *support.NARROWER), strategy="paper")
-    state = initial_state(setup.setting.intent, setup.setting.relations, 3)
+    state = initial_state(setup.setting.intent, {0, 1}, 2, 3)
     assert state.motion == ("TS", "TRS", "N")
-    assert set(state.relations) == {"ST"}
+    assert state.relations == ("ST", "ST")
     assert primary_nodes(setup) == [2, 0]
 
 
 def test_slopes_of_the_mean_violation_agree_with_finite_differences(search):
     program = search.program
-    state = initial_state(search.setup.setting.intent, search.relations, 3)
+    state = initial_state(search.setup.setting.intent, search.edges, len(search.relations), 3)
     choice = build_choice(state, search.setup, program.active(state.relations))
 
     def value_and_slope(problem, cand, z):
@@ -186,6 +192,17 @@ def test_a_bounded_front_says_so(monkeypatch):
     assert outcome.notes == (
         "relation search: a front of 2 relations has 4 subsets; the 1 smallest and the whole front were tried",
     )
+
+
+def test_a_bounded_scene_says_so(monkeypatch):
+    monkeypatch.setattr(paper, "EDGES", 1)
+    monkeypatch.setattr(paper, "NODES", 1)
+    _, outcome = run(support.NARROWER)
+    assert outcome.notes == (
+        "paper strategy: 1 of 2 relations are constraints, those nearest to the request",
+        "paper strategy: 1 of 2 segments had their motion searched, those nearest to the request",
+    )
+    assert sorted(r.state for r in outcome.relations) == ["N", "ST"]
 
 
 def test_a_solver_that_needs_more_than_slopes_is_refused():

@@ -27,7 +27,7 @@ EDITS = (
     ("other icon", "pot-halved", ""),
     ("other icon, outlines compared", "trophy-cup-base", ""),
 )
-STAGES = ("import", "scene", "translate", "compile", "search", "render", "total")
+STAGES = ("import", "scene", "translate", "compile", "search", "render", "total", "candidates")
 
 
 def process(folder: str, edits: Sequence[tuple[str, str, str]] = EDITS) -> tuple[list[dict[str, float]], float]:
@@ -47,7 +47,8 @@ def table(title: str, runs: list[list[dict[str, float]]]) -> str:
     lines = [f"{title} ({len(runs)} processes)", "", f"| seconds | {' | '.join(STAGES)} |"]
     lines.append("| --- |" + " ---: |" * len(STAGES))
     for k, (name, case, _) in enumerate(EDITS):
-        cells = [f"{median(run[k][stage] for run in runs if k < len(run)):.2f}" for stage in STAGES]
+        rows = [run[k] for run in runs if k < len(run)]
+        cells = [f"{median(row[s] for row in rows):.{0 if s == 'candidates' else 2}f}" for s in STAGES]
         lines.append(f"| {name} ({case}) | {' | '.join(cells)} |")
     return "\n".join(lines) + "\n"
 

@@ -30,6 +30,7 @@ def main() -> None:
         row["scene"] = total - sum(result.timings.values())
         row["total"] = total + row["import"]
         row["satisfied"] = float(result.satisfied)
+        row["candidates"] = len(result.trace)
         row["light"] = light
         rows.append(row)
     print(json.dumps(rows))

@@ -136,7 +136,7 @@ def show(rows: list[Measured]) -> None:
 
 @click.command(help=__doc__)
 @click.argument("cases", nargs=-1)
-@click.option("--sample", default=6, show_default=True, help="Candidates of each case for jitted L-BFGS-B.")
+@click.option("--sample", default=4, show_default=True, help="Candidates of each case for jitted L-BFGS-B.")
 @click.option("--steps", default=4, show_default=True, help="Eager steps that are timed for each case.")
 @click.option("--repeats", default=3, show_default=True, help="Times the engine solves each case again.")
 def main(cases: tuple[str, ...], sample: int, steps: int, repeats: int) -> None:

@@ -89,7 +89,7 @@ def related(out: Collector, clause: Clause, name: str, other: str) -> None:
         return
     match kind:
         case "on" | "touch" | "reach":
-            if kind == "on" or (clause.direction == "down" and not clause.side and comes_down(out, name, other)):
+            if kind == "on":
                 out.add(call("on_top", s, t))
             out.add(call("touch", region(clause.theme_side, s), region(clause.side, t)))
         case "above" | "below" | "left_of" | "right_of":
@@ -120,12 +120,6 @@ def grounded(out: Collector, clause: Clause) -> None:
             raise TranslationError("the ground is not one of the things in the picture; say where to go in another way")
         out.equal(call("max_y", quoted(name)), call("max_y", quoted(lowest)))
         keep_axis(out, clause, name, lowest)
-
-
-def comes_down(out: Collector, name: str, other: str) -> bool:
-    """Whether a thing that goes down meets the other from above."""
-    above = out.shapes.box(name)[3] <= out.shapes.box(other)[1] + 0.01 * out.shapes.scene.size
-    return above and out.shapes.axis_gap(name, other, 0) < 0
 
 
 def _meets_sides(clause: Clause, other: str) -> bool:

@@ -54,7 +54,7 @@ def _segment_flips(setting: Setting, state: State, i: int, unmet: bool) -> Itera
     asked = setting.intent.things_of(i)
     if asked:
         if unmet:
-            for mode in _more_freedom(state.mode(i)):
+            for mode in _more_freedom(state.mode(i), {k for t in asked for k in t.kinds}):
                 yield {state.root(i): mode}, f"segment {state.root(i)} may also {mode}"
         return
     carried = [j for j in members_of(state, i) if j != i and setting.facts.host[j] is None]
@@ -70,12 +70,14 @@ def _segment_flips(setting: Setting, state: State, i: int, unmet: bool) -> Itera
             yield changes, f"segment {i} alone to {way}"
 
 
-def _more_freedom(mode: Mode) -> Iterator[Mode]:
+def _more_freedom(mode: Mode, kinds: set[str]) -> Iterator[Mode]:
+    """More freedom for an asked part that cannot do as asked. What was only asked to move neither turns nor changes
+    size: better say that a constraint is missed."""
     turn = "R" if mode.startswith("TR") else ""
     kind = scale_kind(mode)
-    if not turn:
+    if not turn and kinds != {"translate"} and "scale" not in kinds:
         yield "TR" + kind
-    for other in ("Sx", "Sy", "Sxy", "Su"):
+    for other in ("Sx", "Sy", "Sxy", "Su") if "scale" in kinds else ():
         if other != kind and kind in ("", "Su", "Sx", "Sy"):
             yield "T" + turn + other
 

@@ -18,6 +18,7 @@ from iconjax.search.paper_states import (
     MOTIONS,
     PaperState,
     build_choice,
+    candidate_edges,
     flip_motion,
     flip_relations,
     initial_state,
@@ -35,6 +36,8 @@ ENOUGH = 0.02
 """A mean violation of this many pixels (at 512 x 512) is low enough: scores below it are equal."""
 COMBINATIONS = 24
 """Most subsets of one front that are tried."""
+EDGES, NODES = 48, 32
+"""Most relations that are constraints, and most segments whose motion is searched: those nearest to the request."""
 BATCH = 4
 
 
@@ -65,19 +68,27 @@ class PaperSearch:
         method(solver, FOR_MEAN_VIOLATION)
         self.setup, self.config = setup, config
         self.relations = setup.setting.relations
-        self.edges = [e for e, r in enumerate(self.relations) if r.kind != "near"]
-        self.program = build_program(setup, registry)
+        self.notes: list[str] = []
+        self.nodes = primary_nodes(setup)
+        edges = candidate_edges(self.nodes, self.relations)
+        self.edges = self._bounded(edges, EDGES, "relations are constraints")
+        self.program = build_program(setup, registry, self.edges)
         self.engine = Engine(self.program.violations, self.program.table, self.program.wide, solver, BATCH)
         self.enough = ENOUGH * setup.setting.size / 512
         self.solved: dict[PaperState, Solved] = {}
         self.entries: list[TraceEntry] = []
-        self.notes: list[str] = []
         self.round = 0
+
+    def _bounded(self, items: list[int], most: int, what: str) -> list[int]:
+        if len(items) > most:
+            self.notes.append(f"paper strategy: {most} of {len(items)} {what}, those nearest to the request")
+        return items[:most]
 
     def run(self) -> tuple[PaperState, Solved]:
         """Both passes."""
         self._measure()
-        state = initial_state(self.setup.setting.intent, self.relations, len(self.setup.scene.segments))
+        n = len(self.setup.scene.segments)
+        state = initial_state(self.setup.setting.intent, self.edges, len(self.relations), n)
         self._solve([state])
         self._record("initial state", state, True, "where the search begins")
         if self.config.relation_search:
@@ -111,8 +122,7 @@ class PaperSearch:
         self.round += 1
 
     def _relation_pass(self, best: PaperState) -> PaperState:
-        nodes = set(primary_nodes(self.setup))
-        front = [e for e in self.edges if {self.relations[e].a, self.relations[e].b} & nodes]
+        front = [e for e in self.edges if {self.relations[e].a, self.relations[e].b} & set(self.nodes)]
         seen: set[int] = set()
         while front and self._score(best) > self.enough:
             seen |= set(front)
@@ -162,14 +172,13 @@ class PaperSearch:
         return best
 
     def _motion_pass(self, best: PaperState) -> PaperState:
-        front = primary_nodes(self.setup)
-        seen: set[int] = set()
+        front, order = list(self.nodes), []
         while front:
-            seen |= set(front)
-            for node in front:
-                if node not in self.setup.setting.intent.fixed:
-                    best = self._simplify(best, node)
-            front = next_nodes(front, seen, self.relations, self.edges)
+            order += front
+            front = next_nodes(front, set(order), self.relations, self.edges)
+        free = [node for node in order if node not in self.setup.setting.intent.fixed]
+        for node in self._bounded(free, NODES, "segments had their motion searched"):
+            best = self._simplify(best, node)
         return best
 
     def _simplify(self, best: PaperState, node: int) -> PaperState:

@@ -79,15 +79,11 @@ class PaperProgram:
         return replace(self, violations=self.violations._replace(allowed=allowed))
 
 
-def build_program(setup: Setup, registry: Registry) -> PaperProgram:
-    """Compile the program of `setup` together with the function of each relation of the paper's kinds.
-
-    "near" relations are beyond the paper and left out.
-    """
+def build_program(setup: Setup, registry: Registry, edges: Sequence[int]) -> PaperProgram:
+    """Compile the program of `setup` together with the function of each relation in `edges`."""
     constraints = [(c, u) for c, u in zip(setup.program.calls, setup.units, strict=True) if u is not None]
     calls, units = [c for c, _ in constraints], [u for _, u in constraints]
     primary, relations, names = len(calls), setup.setting.relations, setup.scene.names
-    edges = [e for e, r in enumerate(relations) if r.kind != "near"]
     calls += [_weak(relations[e], names) for e in edges]
     units += [Unit.LENGTH] * len(edges)
     table = operator_table(registry)

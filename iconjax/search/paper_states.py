@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations, islice
 from typing import Any
@@ -53,21 +53,32 @@ class PaperState:
         return replace(self, motion=(*self.motion[:node], state, *self.motion[node + 1 :]))
 
 
-def initial_state(intent: Intent, relations: Sequence[Relation], segments: int) -> PaperState:
-    """Every relation strong; named segments free in the ways the program names, those told to stay fixed, all
-    others free in every way. "near" relations are beyond the paper: they do not exist."""
+def initial_state(intent: Intent, edges: Collection[int], relations: int, segments: int) -> PaperState:
+    """Every relation in `edges` strong; named segments free in the ways the program names, those told to stay
+    fixed, all others free in every way."""
     motion = []
     for i in range(segments):
         kinds = {kind for thing in intent.things_of(i) for kind in thing.kinds}
         asked = "T" + ("R" if "rotate" in kinds else "") + ("S" if "scale" in kinds else "")
         motion.append("N" if i in intent.fixed else asked if kinds else "TRS")
-    return PaperState(tuple(motion), tuple("N" if r.kind == "near" else "ST" for r in relations))
+    return PaperState(tuple(motion), tuple("ST" if e in edges else "N" for e in range(relations)))
 
 
 def primary_nodes(setup: Setup) -> list[int]:
     """Segments that the program mentions, in order."""
     names = [n for call in setup.program.calls for n in segment_names(call)]
     return list(dict.fromkeys(i for n in names for i in setup.scene.members(n)))
+
+
+def candidate_edges(nodes: Collection[int], relations: Sequence[Relation]) -> list[int]:
+    """Relations of the paper's kinds ("near" is beyond it), those nearest to `nodes` first."""
+    edges = [e for e, r in enumerate(relations) if r.kind != "near"]
+    front = [e for e in edges if {relations[e].a, relations[e].b} & set(nodes)]
+    ordered: list[int] = []
+    while front:
+        ordered += front
+        front = next_edges(front, set(ordered), relations, edges)
+    return ordered + [e for e in edges if e not in set(ordered)]
 
 
 def flip_relations(
