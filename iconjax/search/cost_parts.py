@@ -42,7 +42,8 @@ def _carried_off(e: Evidence, i: int, along: bool) -> Terms:
     case, costs, turn = e.case, e.case.costs, abs(e.motion.turn[i])
     area = float(case.facts.area[i])
     far = min(1.0, float(e.motion.shift[i]) / (20 * case.unit))
-    yield "moved", costs.moved_area * area * far * (0.5 if along else 1.0)
+    heavy = costs.rooted if case.facts.grounded[i] else 0.5 if along else 1.0
+    yield "moved", costs.moved_area * area * far * heavy
     if turn > 0.3:
         weight = costs.turned * (2 * area if along else 1.0) + (costs.hung if case.facts.hung[i] else 0.0)
         yield "turned", weight * min(1.0, turn / 10)
@@ -83,6 +84,8 @@ def asked_costs(e: Evidence) -> Terms:
     """Unasked kinds of change of asked parts, how much they change, and whether things asked alike move alike."""
     case, costs, turn = e.case, e.case.costs, np.abs(e.motion.turn)
     asked = case.asked_segments
+    free = [m for m in e.state.modes if m != "N" and not m.startswith("W:")]
+    yield "freedom", costs.freedom * (sum(len(m) for m in free) + len(e.state.relations))
     if asked:
         yield "amount", costs.amount * float(e.motion.shift[asked].mean()) / case.unit
     turning = [t.members[0] for t in case.setting.intent.things if t.kinds == {"rotate"}]

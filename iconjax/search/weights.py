@@ -112,6 +112,8 @@ class Costs:
         carrier: how much dearer it gets where the larger of two things moves and leaves the smaller behind.
         bearing: share of it that counts between what turns on request and a stand that stays.
         moved: another set of parts that moves in a way of its own though nobody asked; plus `moved_area` for its area.
+        rooted: factor on that area for what stands on the ground.
+        freedom: for each degree of freedom and each relation let go: of equal results the simplest explanation wins.
         along: the same where it goes along with something that was asked to move.
         turned, stretched: added where it turns or changes size; `squashed` where a disc loses its shape.
         hung: added where something turns that hangs from what moves.
@@ -146,6 +148,8 @@ class Costs:
     pull_scale: float = 30.0
     moved: float = 0.7
     moved_area: float = 5.0
+    rooted: float = 1.5
+    freedom: float = 0.002
     along: float = 0.3
     turned: float = 1.5
     stretched: float = 3.0
