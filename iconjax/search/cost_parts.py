@@ -95,7 +95,7 @@ def asked_costs(e: Evidence) -> Terms:
     for i in asked:
         kinds, stretch = case.asked[i], e.motion.stretch(i)
         if case.facts.grounded[i] and not kinds & {"translate", "rotate"} and e.lifted(i) > 1.5:
-            yield "uprooted", costs.uprooted * min(1.0, e.lifted(i) / 20)
+            yield "uprooted", costs.asked_uprooted * min(1.0, e.lifted(i) / 20)
         if "rotate" not in kinds and turn[i] > 0.3:
             yield "extra", costs.extra * min(1.0, 0.3 + float(turn[i]) / 10)
         if "scale" not in kinds and stretch > 0.005:

@@ -6,6 +6,7 @@ import numpy as np
 
 from iconjax.relations.types import Relation
 from iconjax.search.evidence import Evidence
+from iconjax.search.motion import same_motion
 from iconjax.search.weights import closeness
 
 
@@ -38,7 +39,7 @@ def _kind(r: Relation) -> str:
 
 def _relation(e: Evidence, r: Relation) -> tuple[str, float, str]:
     case, costs = e.case, e.case.costs
-    if np.allclose(e.matrices[r.a], e.matrices[r.b], atol=1e-6):
+    if same_motion(e.matrices[r.a], e.matrices[r.b], 1e-5):
         return "F" if e.moved(r.a) else "ST", 0.0, ""
     if r.kind == "near" and case.asked[r.a] and case.asked[r.b]:
         return "N", 0.0, ""

@@ -6,6 +6,7 @@ import numpy as np
 
 from iconjax.search.evidence import Evidence, Terms
 from iconjax.search.facts import Alignment, Mirror
+from iconjax.search.motion import same_motion
 
 
 def surrounding_costs(e: Evidence) -> Terms:
@@ -22,7 +23,7 @@ def surrounding_costs(e: Evidence) -> Terms:
 
 def _misaligned(e: Evidence, a: Alignment) -> float:
     case = e.case
-    still = not e.moved(a.a) if a.b is None else np.allclose(e.matrices[a.a], e.matrices[a.b])
+    still = not e.moved(a.a) if a.b is None else same_motion(e.matrices[a.a], e.matrices[a.b])
     if still:
         return 0.0
     before, after = (

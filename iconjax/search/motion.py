@@ -41,6 +41,6 @@ def measure_motion(matrices: Float[np.ndarray, "n 6"], features: Float[np.ndarra
     return Motion(shift, turn, np.linalg.svd(m[:, :, :2], compute_uv=False))
 
 
-def same_motion(a: Float[np.ndarray, "6"], b: Float[np.ndarray, "6"]) -> bool:
-    """Whether two transforms are one."""
-    return bool(np.allclose(a, b, atol=1e-3, rtol=0))
+def same_motion(a: Float[np.ndarray, "6"], b: Float[np.ndarray, "6"], tolerance: float = 1e-3) -> bool:
+    """Whether two transforms are one, within `tolerance` of each entry."""
+    return bool(np.abs(a - b).max() <= tolerance)

@@ -117,7 +117,7 @@ class Costs:
         along: the same where it goes along with something that was asked to move.
         turned, stretched: added where it turns or changes size; `squashed` where a disc loses its shape.
         hung: added where something turns that hangs from what moves.
-        uprooted: something that stood on the ground leaves it.
+        uprooted: something that stood on the ground leaves it; `asked_uprooted` where it was only asked to change size.
         extra: an unasked kind of motion of an asked part.
         idle_specifier: a kind of motion that was asked and did not happen.
         amount: for each pixel that asked parts move on average: of equal solutions the smaller change wins.
@@ -156,6 +156,7 @@ class Costs:
     squashed: float = 2.0
     hung: float = 1.5
     uprooted: float = 1.5
+    asked_uprooted: float = 4.0
     extra: float = 3.0
     idle_specifier: float = 8.0
     amount: float = 0.003
