@@ -103,7 +103,7 @@ def test_subsets_are_all_or_bounded_with_the_whole_front_among_them():
 
 def test_states_begin_as_the_program_says():
     setup = support.prepared(('stay("Table")', *support.NARROWER), strategy="paper")
-    state = initial_state(setup.setting.intent, {0, 1}, 2, 3)
+    state = initial_state(setup.setting.intent, {0, 1}, {0, 1, 2}, 2, 3)
     assert state.motion == ("TS", "TRS", "N")
     assert state.relations == ("ST", "ST")
     assert primary_nodes(setup) == [2, 0]
@@ -111,8 +111,8 @@ def test_states_begin_as_the_program_says():
 
 def test_slopes_of_the_mean_violation_agree_with_finite_differences(search):
     program = search.program
-    state = initial_state(search.setup.setting.intent, search.edges, len(search.relations), 3)
-    choice = build_choice(state, search.setup, program.active(state.relations))
+    state = initial_state(search.setup.setting.intent, search.edges, search.movable, len(search.relations), 3)
+    choice = build_choice(state, search.setup, search.movable, program.active(state.relations))
 
     def value_and_slope(problem, cand, z):
         return MeanViolation(problem, cand, program.table, program.wide).value_and_slope(z, SHARP)
@@ -133,7 +133,7 @@ def test_flipping_a_mask_changes_only_what_counts_and_compiles_nothing(narrower,
     relations = search.relations
     strong = PaperState(("N",) * 3, ("ST",) * len(relations))
     states = [strong, strong.with_relations([0], "WK"), strong.with_relations([0], "N")]
-    choices = [build_choice(s, setup, program.active(s.relations)) for s in states]
+    choices = [build_choice(s, setup, search.movable, program.active(s.relations)) for s in states]
     found = search.engine.solve(choices)
     assert search.engine.compile_seconds == 0  # the search before it had the same sizes
     for k in (1, 2):

@@ -31,12 +31,14 @@ from iconjax.search.setup import Setup
 from iconjax.search.types import TraceEntry
 from iconjax.solve.engine import Engine
 from iconjax.solve.methods import FOR_MEAN_VIOLATION, method
+from iconjax.solve.pose import IDENTITY
+from iconjax.solve.violation import Choice
 
 ENOUGH = 0.02
 """A mean violation of this many pixels (at 512 x 512) is low enough: scores below it are equal."""
 COMBINATIONS = 24
 """Most subsets of one front that are tried."""
-EDGES, NODES = 48, 32
+EDGES, NODES = 32, 24
 """Most relations that are constraints, and most segments whose motion is searched: those nearest to the request."""
 BATCH = 4
 
@@ -72,7 +74,9 @@ class PaperSearch:
         self.nodes = primary_nodes(setup)
         edges = candidate_edges(self.nodes, self.relations)
         self.edges = self._bounded(edges, EDGES, "relations are constraints")
-        self.program = build_program(setup, registry, self.edges)
+        ends = [i for e in self.edges for i in (self.relations[e].a, self.relations[e].b)]
+        self.movable = sorted({*self.nodes, *ends} - setup.setting.intent.fixed)
+        self.program = build_program(setup, registry, self.edges, self.movable)
         self.engine = Engine(self.program.violations, self.program.table, self.program.wide, solver, BATCH)
         self.enough = ENOUGH * setup.setting.size / 512
         self.solved: dict[PaperState, Solved] = {}
@@ -88,7 +92,7 @@ class PaperSearch:
         """Both passes."""
         self._measure()
         n = len(self.setup.scene.segments)
-        state = initial_state(self.setup.setting.intent, self.edges, len(self.relations), n)
+        state = initial_state(self.setup.setting.intent, self.edges, self.movable, len(self.relations), n)
         self._solve([state])
         self._record("initial state", state, True, "where the search begins")
         if self.config.relation_search:
@@ -101,9 +105,13 @@ class PaperSearch:
         """Measure the unedited picture: with nothing free, a solve does no more."""
         n = len(self.setup.scene.segments)
         still = PaperState(("N",) * n, ("N",) * len(self.relations))
-        nothing = build_choice(still, self.setup, np.zeros(self.program.violations.allowed.shape))
+        off = np.zeros(self.program.violations.allowed.shape)
+        nothing = build_choice(still, self.setup, self.movable, off)
         self.program = self.program.allowing(np.asarray(self.engine.solve([nothing]).primary[0]))
         self.engine.problem = self.program.violations
+
+    def _choice(self, state: PaperState) -> Choice:
+        return build_choice(state, self.setup, self.movable, self.program.active(state.relations))
 
     def _score(self, state: PaperState) -> float:
         return max(self.solved[state].score, self.enough)
@@ -113,12 +121,12 @@ class PaperSearch:
         fresh = [s for s in dict.fromkeys(states) if s not in self.solved]
         if not fresh:
             return
-        choices = [build_choice(s, self.setup, self.program.active(s.relations)) for s in fresh]
-        found = self.engine.solve(choices)
-        n = len(self.setup.scene.segments)
-        matrices, residuals = np.asarray(found.matrices), np.asarray(found.primary)
+        found = self.engine.solve([self._choice(s) for s in fresh])
+        residuals, moved = np.asarray(found.primary), len(self.movable)
         for k, state in enumerate(fresh):
-            self.solved[state] = Solved(float(found.loss[k]), matrices[k, :n], residuals[k])
+            matrices = np.tile(IDENTITY, (len(self.setup.scene.segments), 1))
+            matrices[self.movable] = found.matrices[k, :moved]
+            self.solved[state] = Solved(float(found.loss[k]), matrices, residuals[k])
         self.round += 1
 
     def _relation_pass(self, best: PaperState) -> PaperState:

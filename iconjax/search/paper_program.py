@@ -7,13 +7,13 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
 from iconjax.dsl.nodes import Call, Program, SegmentRef
 from iconjax.dsl.registry import Registry
 from iconjax.dsl.units import Unit
 from iconjax.relations.types import Relation
-from iconjax.search.setup import Setup
+from iconjax.search.setup import BODIES, Setup, static_size
 from iconjax.solve.arrays import Code, Regions
 from iconjax.solve.compile import CompiledProgram, compile_program
 from iconjax.solve.regions import index_array
@@ -79,8 +79,11 @@ class PaperProgram:
         return replace(self, violations=self.violations._replace(allowed=allowed))
 
 
-def build_program(setup: Setup, registry: Registry, edges: Sequence[int]) -> PaperProgram:
-    """Compile the program of `setup` together with the function of each relation in `edges`."""
+def build_program(setup: Setup, registry: Registry, edges: Sequence[int], movable: Sequence[int]) -> PaperProgram:
+    """Compile the program of `setup` together with the function of each relation in `edges`.
+
+    Segments are numbered by their place in `movable`; all others never move.
+    """
     constraints = [(c, u) for c, u in zip(setup.program.calls, setup.units, strict=True) if u is not None]
     calls, units = [c for c, _ in constraints], [u for _, u in constraints]
     primary, relations, names = len(calls), setup.setting.relations, setup.scene.names
@@ -93,14 +96,17 @@ def build_program(setup: Setup, registry: Registry, edges: Sequence[int]) -> Pap
         frozenset(o.name for o in registry.operators.values() if o.variadic), setup.sizes.segments,
     )  # fmt: skip
     code, regions = trim(compiled)
-    outs, meetings = code.out.shape[0], setup.sizes.relations
+    size = static_size(len(movable), BODIES, "moving parts")
+    where = np.full(setup.sizes.segments + 1, size)
+    where[list(movable)] = np.arange(len(movable))
+    outs, meetings = code.out.shape[0], max(16, 2 ** (len(edges) - 1).bit_length())
     arrays: dict[str, Any] = {
         "owner": index_array(compiled.owner, outs, outs + meetings),
-        **_meetings(relations, meetings, setup.sizes.segments),
+        **_meetings([relations[e] for e in edges], meetings, where, size),
         "allowed": np.zeros(outs + meetings),
     }
-    violations = Violations(code, regions, canvas=setup.problem.canvas, **arrays)
-    weak, strong = {e: primary + k for k, e in enumerate(edges)}, {e: outs + e for e in edges}
+    violations = Violations(code, _renumbered(regions, where, size), canvas=setup.problem.canvas, **arrays)
+    weak, strong = ({e: start + k for k, e in enumerate(edges)} for start in (primary, outs))
     return PaperProgram(violations, table, compiled.wide, primary, weak, strong)
 
 
@@ -108,12 +114,23 @@ def _weak(relation: Relation, names: Sequence[str]) -> Call:
     return Call(relation.kind, (SegmentRef(names[relation.a]), SegmentRef(names[relation.b])))
 
 
-def _meetings(relations: Sequence[Relation], rows: int, still: int) -> dict[str, Any]:
+def _renumbered(regions: Regions, where: Int[np.ndarray, " n"], still: int) -> Regions:
+    share = np.zeros((len(regions.share), still + 1))
+    np.add.at(share.T, where, np.asarray(regions.share).T)
+    arrays: dict[str, Any] = {
+        "hull_segment": where[np.asarray(regions.hull_segment)],
+        "segment": where[np.asarray(regions.segment)],
+        "share": share,
+    }
+    return regions._replace(**arrays)
+
+
+def _meetings(relations: Sequence[Relation], rows: int, where: Int[np.ndarray, " n"], still: int) -> dict[str, Any]:
     """Where relations meet: one place, as material of both; across a gap it is in neither."""
     meeting = np.zeros((rows, 2))
     for e, r in enumerate(relations):
         meeting[e] = r.contact.middle.mean(0)
-    a, b = [r.a for r in relations], [r.b for r in relations]
+    a, b = [where[r.a] for r in relations], [where[r.b] for r in relations]
     return {"a": index_array(a, rows, still), "b": index_array(b, rows, still), "meeting": meeting}
 
 

@@ -13,7 +13,7 @@ from jaxtyping import Float
 from iconjax.dsl.nodes import segment_names
 from iconjax.relations.types import Relation
 from iconjax.search.intent import Intent
-from iconjax.search.setup import Setup
+from iconjax.search.setup import BODIES, Setup, static_size
 from iconjax.solve.pose import Bodies
 from iconjax.solve.violation import Choice
 
@@ -53,14 +53,16 @@ class PaperState:
         return replace(self, motion=(*self.motion[:node], state, *self.motion[node + 1 :]))
 
 
-def initial_state(intent: Intent, edges: Collection[int], relations: int, segments: int) -> PaperState:
+def initial_state(
+    intent: Intent, edges: Collection[int], movable: Collection[int], relations: int, segments: int
+) -> PaperState:
     """Every relation in `edges` strong; named segments free in the ways the program names, those told to stay
-    fixed, all others free in every way."""
+    fixed, all others in `movable` free in every way."""
     motion = []
     for i in range(segments):
         kinds = {kind for thing in intent.things_of(i) for kind in thing.kinds}
         asked = "T" + ("R" if "rotate" in kinds else "") + ("S" if "scale" in kinds else "")
-        motion.append("N" if i in intent.fixed else asked if kinds else "TRS")
+        motion.append("N" if i in intent.fixed or i not in movable else asked if kinds else "TRS")
     return PaperState(tuple(motion), tuple("ST" if e in edges else "N" for e in range(relations)))
 
 
@@ -130,22 +132,18 @@ def next_nodes(front: Iterable[int], seen: set[int], relations: Sequence[Relatio
     return [n for n in dict.fromkeys(near) if n not in seen]
 
 
-def build_bodies(motion: Sequence[str], features: Float[np.ndarray, "n 6"], size: float, count: int) -> Bodies:
-    """Each segment as a body of its own, its motion state as a mask; scaling is along the picture's axes."""
-    n = len(motion)
+def build_choice(state: PaperState, setup: Setup, movable: Sequence[int], active: Float[np.ndarray, " g"]) -> Choice:
+    """The arrays for a state, segments numbered by their place in `movable`: each is a body of its own, its motion
+    state a mask over its freedoms; scaling is along the picture's axes."""
+    n, count = len(movable), static_size(len(movable), BODIES, "moving parts")
     centre, radius, free = np.zeros((count, 2)), np.ones(count), np.zeros((count, 5))
-    centre[:n] = features[:, [1, 4]]
+    features = setup.setting.facts.features[list(movable)]
     extent = features[:, [2, 5]] - features[:, [0, 3]]
-    radius[:n] = np.maximum(np.linalg.norm(extent, axis=1) / 2, LEVER * size)
-    free[:n] = [FREEDOM[m] for m in motion]
+    centre[:n] = features[:, [1, 4]]
+    radius[:n] = np.maximum(np.linalg.norm(extent, axis=1) / 2, LEVER * setup.setting.size)
+    free[:n] = [FREEDOM[state.motion[i]] for i in movable]
+    body = np.where(np.arange(count) < n, np.arange(count), count)
     zero, flat = np.zeros((count, 5)), np.zeros(count)
-    arrays: list[Any] = [centre, flat, radius, free, flat, zero, zero, zero]
-    return Bodies(*arrays)
-
-
-def build_choice(state: PaperState, setup: Setup, active: Float[np.ndarray, " g"]) -> Choice:
-    """The arrays for a state."""
-    count = setup.sizes.segments
-    bodies = build_bodies(state.motion, setup.setting.facts.features, setup.setting.size, count)
-    arrays: list[Any] = [np.arange(count), bodies, active]
+    bodies: list[Any] = [centre, flat, radius, free, flat, zero, zero, zero]
+    arrays: list[Any] = [body, Bodies(*bodies), active]
     return Choice(*arrays)

@@ -44,7 +44,7 @@ class Choice(NamedTuple):
     """One setting of the discrete states.
 
     Attributes:
-        body: (N,) the body that carries each segment: its own.
+        body: (N,) the body that carries each segment: its own; K for padding.
         bodies: the bodies; motion states are the mask `bodies.free`.
         active: (G,) 1 where a constraint is switched on, else 0.
     """
