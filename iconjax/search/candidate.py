@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from jaxtyping import Float
@@ -60,10 +62,12 @@ class Setting:
                 return True
         return False
 
-    def companions(self, r: Relation) -> int:
-        """How many relations connect the same two things; 1 within one object."""
-        pair = self.pair(r)
-        return sum(self.pair(q) == pair for q in self.relations) if pair else 1
+    @cached_property
+    def companions(self) -> tuple[int, ...]:
+        """For each relation, how many connect the same two things; 1 within one object."""
+        pairs = [self.pair(r) for r in self.relations]
+        counts = Counter(pairs)
+        return tuple(counts[p] if p else 1 for p in pairs)
 
 
 def body_roots(state: State) -> tuple[int, ...]:
@@ -144,7 +148,7 @@ def _relation_arrays(
         status = state.relations.get(e, "ST")
         if body[r.a] == body[r.b] or status == "N" or setting.hinged(r):
             continue
-        share = 1 / setting.companions(r)
+        share = 1 / setting.companions[e]
         hold[e] = share * setting.forces.hold(r, setting.size)
         ends[e] = 0.0 if _hinged(setting, body, r, sizes.bodies) else share * setting.forces.ends(r, setting.size)
         slide[e] = status == "WK"

@@ -58,10 +58,3 @@ class State:
 def scale_kind(mode: Mode) -> str:
     """Which scaling a mode allows, "" for none."""
     return next((s for s in SCALES if mode.endswith(s)), "")
-
-
-def motion_state(mode: Mode) -> str:
-    """The contract's motion state of a mode: N, T, TR, TS or TRS."""
-    if mode == "N":
-        return "N"
-    return "T" + ("R" if mode.startswith("TR") else "") + ("S" if scale_kind(mode) else "")

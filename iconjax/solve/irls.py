@@ -21,7 +21,7 @@ from jaxtyping import Bool, Float, Int
 from iconjax.solve.arrays import Candidate, Problem, Solution
 from iconjax.solve.coherence import box_rows, joint_rows, one_hot_bodies
 from iconjax.solve.linear import solve_positive
-from iconjax.solve.pose import DOF, Array, jacobians, matrices
+from iconjax.solve.pose import DOF, Array, jacobians, matrices, step_limits
 from iconjax.solve.program import residuals, segment_matrices
 from iconjax.solve.table import OperatorTable
 
@@ -117,8 +117,7 @@ def solve(
     """
     bodies = cand.bodies
     start = bodies.start * bodies.free
-    reach = jnp.full((bodies.radius.shape[0], 2), 0.5 * jnp.max(problem.canvas))
-    most = jnp.concatenate([reach, jnp.repeat(0.6 * bodies.radius[:, None], 3, 1)], 1)
+    most = step_limits(bodies, problem.canvas)
 
     def at(z: Float[Array, "K 5"]) -> System:
         return linearise(problem, cand, z, table, wide)

@@ -15,7 +15,7 @@ from jaxtyping import Array, Float
 
 from iconjax.solve import irls
 from iconjax.solve.arrays import Candidate, Problem, Solution
-from iconjax.solve.pose import matrices
+from iconjax.solve.pose import matrices, step_limits
 from iconjax.solve.program import segment_matrices
 from iconjax.solve.table import OperatorTable
 
@@ -81,8 +81,7 @@ class Coherent:
         self.free = bodies.free.reshape(-1)
         self.start = bodies.start.reshape(-1) * self.free
         self.unit = jnp.max(problem.canvas) / 512
-        reach = jnp.full((bodies.radius.shape[0], 2), 0.5 * jnp.max(problem.canvas))
-        self.most = jnp.concatenate([reach, jnp.repeat(0.6 * bodies.radius[:, None], 3, 1)], 1).reshape(-1)
+        self.most = step_limits(bodies, problem.canvas).reshape(-1)
         self.pairs = 6 * problem.joints.a.shape[0]  # rows of joints come in twos, one vector each
 
     def _at(self, z: Flat) -> tuple[Float[Array, "K 5"], irls.System]:

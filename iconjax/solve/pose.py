@@ -62,6 +62,12 @@ def _matrix(
     return jnp.concatenate([linear[0], shift[:1], linear[1], shift[1:]])
 
 
+def step_limits(bodies: Bodies, canvas: Float[Array, "4"]) -> Float[Array, "K 5"]:
+    """The largest step that a solver takes at once in each parameter, px: half the picture, 0.6 of a body's lever."""
+    reach = jnp.full((bodies.radius.shape[0], 2), 0.5 * jnp.max(canvas))
+    return jnp.concatenate([reach, jnp.repeat(0.6 * bodies.radius[:, None], 3, 1)], 1)
+
+
 def matrices(z: Float[Array, "K 5"], bodies: Bodies) -> Float[Array, "K 6"]:
     """Affine transform of each body, rows of `[[a, b, c], [d, e, f]]` one after the other."""
     return jax.vmap(_matrix)(z, bodies.centre, bodies.axis, bodies.radius, bodies.uniform)

@@ -11,7 +11,7 @@ from jaxtyping import Array, Float, Int
 from iconjax.solve.arrays import Code, Regions, Solution
 from iconjax.solve.coherence import one_hot_bodies, point_slope
 from iconjax.solve.objective import Flat, Level
-from iconjax.solve.pose import Bodies, jacobians, matrices
+from iconjax.solve.pose import Bodies, jacobians, matrices, step_limits
 from iconjax.solve.program import move, residuals, segment_matrices
 from iconjax.solve.table import OperatorTable
 
@@ -66,8 +66,7 @@ class MeanViolation:
         self.free = bodies.free.reshape(-1)
         self.start = bodies.start.reshape(-1) * self.free
         self.unit = jnp.max(problem.canvas) / 512
-        reach = jnp.full((bodies.radius.shape[0], 2), 0.5 * jnp.max(problem.canvas))
-        self.most = jnp.concatenate([reach, jnp.repeat(0.6 * bodies.radius[:, None], 3, 1)], 1).reshape(-1)
+        self.most = step_limits(bodies, problem.canvas).reshape(-1)
         rows = jnp.repeat(problem.allowed.shape[0] - problem.a.shape[0] + jnp.arange(problem.a.shape[0]), 2)
         owner = jnp.concatenate([problem.owner, rows])
         self.owner = jax.nn.one_hot(owner, problem.allowed.shape[0], dtype=self.start.dtype).T  # G C+2E
