@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,6 +16,7 @@ from iconjax.dsl.units import Unit, pixels_per_unit
 from iconjax.scene.types import Scene
 from iconjax.search.coherent import CoherentSearch
 from iconjax.search.config import SearchConfig
+from iconjax.search.hints import hint_matrices
 from iconjax.search.motion import Motion, measure_motion
 from iconjax.search.paper import PaperSearch
 from iconjax.search.setup import Setup, prepare
@@ -27,9 +28,17 @@ section 8)."""
 
 
 def search_edit(
-    scene: Scene, program: Program, config: SearchConfig | None = None, registry: Registry | None = None
+    scene: Scene,
+    program: Program,
+    config: SearchConfig | None = None,
+    registry: Registry | None = None,
+    guesses: Mapping[int, Float[np.ndarray, "2 3"]] | None = None,
 ) -> SearchOutcome:
     """Find the transforms that meet `program` and leave `scene` coherent.
+
+    Args:
+        guesses: somebody's guess at the transforms by segment id: a further place for the default strategy to begin,
+            and its choice between equally good solutions.
 
     Raises:
         ProgramError: the program does not type-check or is too large.
@@ -44,7 +53,7 @@ def search_edit(
         state, solved = search.run()
         found = _Found(solved.matrices, solved.residuals, state.relations, solved.score, tuple(search.notes))
     else:
-        search = CoherentSearch(setup, config)
+        search = CoherentSearch(setup, config, _guess(scene, guesses))
         best = search.run()
         found = _Found(best.matrices, best.primary, best.judgement.outcomes, best.cost, ())
     n = len(scene.segments)
@@ -67,6 +76,13 @@ def search_edit(
         },
         notes=found.notes,
     )
+
+
+def _guess(scene: Scene, guesses: Mapping[int, Float[np.ndarray, "2 3"]] | None) -> Float[np.ndarray, "n 6"] | None:
+    if not guesses:
+        return None
+    where = {s.id: i for i, s in enumerate(scene.segments)}
+    return hint_matrices(len(where), {where[k]: m for k, m in guesses.items() if k in where})
 
 
 @dataclass(frozen=True)

@@ -14,6 +14,7 @@ from iconjax.search.candidate import body_roots, build_candidate, members_of
 from iconjax.search.config import SearchConfig
 from iconjax.search.cost import Judge, Judgement
 from iconjax.search.flips import flips
+from iconjax.search.hints import BEGUN, TIE, distance, hinted_start, hinted_state
 from iconjax.search.motion import STILL_PX, measure_motion
 from iconjax.search.setup import BODIES, Setup, static_size
 from iconjax.search.starts import initial_states
@@ -54,8 +55,8 @@ class Trial:
 class CoherentSearch:
     """One search; `run` gives the best trial and the record of all."""
 
-    def __init__(self, setup: Setup, config: SearchConfig) -> None:
-        self.setup, self.config = setup, config
+    def __init__(self, setup: Setup, config: SearchConfig, guess: Float[np.ndarray, "n 6"] | None = None) -> None:
+        self.setup, self.config, self.guess = setup, config, guess
         self.engine: Engine = setup.engine(config.solver or "irls")
         self.judge = Judge(setup.setting, setup.shapes, config.costs)
         self.seen: set[object] = set()
@@ -67,7 +68,7 @@ class CoherentSearch:
         states = initial_states(self.setup.setting)
         if not self.config.motion_search:
             states = states[:2]
-        best = self._solve([(s, z) for s in states for z in self._starts(s)])
+        best = self._solve([*((s, z) for s in states for z in self._starts(s)), *self._guessed(states)])
         if not best:
             raise AssertionError("no candidate")
         for _ in range(self.config.rounds):
@@ -78,7 +79,25 @@ class CoherentSearch:
             best = ranked
             if progress < GAIN:
                 break
-        return self._settle(best[0])
+        return self._settle(self._preferred(best))
+
+    def _guessed(self, states: Sequence[State]) -> Iterable[tuple[State, Float[np.ndarray, "n 5"]]]:
+        """Likely states, and the one that the guess amounts to, each begun at the guess."""
+        if self.guess is None:
+            return
+        setting, sizes = self.setup.setting, self.setup.sizes
+        for state in (*states[:BEGUN], hinted_state(setting, self.guess)):
+            roomy = replace(sizes, bodies=static_size(len(body_roots(state)), BODIES, "moving parts"))
+            yield state, hinted_start(state, build_candidate(setting, state, roomy).bodies, self.guess)
+
+    def _preferred(self, ranked: Sequence[Trial]) -> Trial:
+        """The cheapest trial; among equals the one nearest to the guess where there is one."""
+        guess = self.guess
+        if guess is None:
+            return ranked[0]
+        equal = [t for t in ranked if t.cost <= ranked[0].cost + TIE]
+        features = self.setup.setting.facts.features
+        return min(equal, key=lambda t: distance(t.matrices, guess, features))
 
     def _starts(self, state: State) -> Iterable[Float[np.ndarray, "n 5"]]:
         """Parameters to begin a fresh state with: identity, and turned either way where a direction is open."""
