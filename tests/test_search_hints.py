@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from engine_support import picture, program, rect
 
+from iconjax.search.advice import Advice
 from iconjax.search.api import search_edit
 from iconjax.search.candidate import build_candidate
 from iconjax.search.config import SearchConfig
@@ -54,6 +55,6 @@ def test_a_guess_decides_between_equal_solutions_only(scene):
     ids = {s.name: s.id for s in scene.segments}
     free = search_edit(scene, calls)
     lie = {ids["Box:Body"]: np.array([[1.0, 0, 40], [0, 1, 40]]), ids["Ball"]: np.array([[1.0, 0, 0], [0, 1, 30]])}
-    told = search_edit(scene, calls, guesses=lie)
+    told = search_edit(scene, calls, advice=Advice(guesses=lie))
     assert all(c.satisfied for c in told.constraints)
     np.testing.assert_allclose(told.matrices, free.matrices, atol=0.05)

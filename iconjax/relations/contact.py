@@ -26,6 +26,10 @@ class Border:
         self.points: Float[np.ndarray, "_ 2"] = np.stack([c + self.box[0] - 0.5, r + self.box[1] - 0.5], 1)
         self.tree = cKDTree(self.points)
 
+    def distance(self, other: Border) -> float:
+        """The width of the gap between the two, px; 0 where they touch."""
+        return max(0.0, float(other.tree.query(self.points)[0].min()) - 1.0)
+
     def far_from(self, other: Border, reach: float) -> bool:
         """Whether the two boxes are further apart than `reach`."""
         a, b = self.box, other.box

@@ -16,13 +16,18 @@ BRIDGE_REACH = 0.08
 """Widest gap, as a share of the picture's larger side, over which a lone object belongs to the nearest one."""
 
 
-def assign_scopes(scene: Scene, relations: Sequence[Relation]) -> list[Relation]:
+def assign_scopes(
+    scene: Scene, relations: Sequence[Relation], crucial: frozenset[frozenset[str]] | None = None
+) -> list[Relation]:
     """Type each relation as between objects, crucial within one, or not crucial within one.
 
-    Rule: within an object a relation is crucial when the object's parts would fall apart without it, that is when it
-    belongs to the spanning tree of tightest contacts (least gap first, then longest contact), or when the two parts
-    touch without any gap along at least a twelfth of the smaller one's outline.
+    Where `crucial` names the pairs of segments that hold their objects together, it decides. Else a rule does: within
+    an object a relation is crucial when the object's parts would fall apart without it, that is when it belongs to the
+    spanning tree of tightest contacts (least gap first, then longest contact), or when the two parts touch without any
+    gap along at least a twelfth of the smaller one's outline.
     """
+    if crucial is not None:
+        return [replace(r, scope=_told_scope(scene, r, crucial)) for r in relations]
     tree = nx.Graph()
     for k, r in enumerate(relations):
         if scene.segments[r.a].object == scene.segments[r.b].object:
@@ -36,6 +41,13 @@ def assign_scopes(scene: Scene, relations: Sequence[Relation]) -> list[Relation]
             firm = r.contact.gap < 1.5 and max(r.contact.share, r.contact.share_b) >= 1 / 12
             out.append(replace(r, scope="intra-crucial" if k in needed or firm else "intra"))
     return out
+
+
+def _told_scope(scene: Scene, r: Relation, crucial: frozenset[frozenset[str]]) -> Scope:
+    a, b = scene.segments[r.a], scene.segments[r.b]
+    if a.object != b.object:
+        return "inter"
+    return "intra-crucial" if frozenset((a.name, b.name)) in crucial else "intra"
 
 
 def bridge_objects(scene: Scene, relations: Sequence[Relation], borders: Sequence[Border]) -> list[Relation]:

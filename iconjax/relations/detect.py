@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import combinations
 
 import numpy as np
@@ -18,6 +19,10 @@ INTRA_REACH = 0.05
 separate connected parts by 17 to 23 px of 512."""
 INTER_REACH = 0.012
 """The same between objects, which are separate things unless they (nearly) touch."""
+ALIKE = 24
+"""Largest difference of mean colours (0..255, any channel) in a picture whose segments are all of one colour."""
+GAP_SPREAD = 1.3
+"""How much wider than a picture's usual gap one may be that still is a contact between objects of one colour."""
 SLACK = 0.008
 """How much further than the nearest points of two outlines a pair may be and still belong to their contact."""
 INSIDE_SHARE = 0.9
@@ -26,30 +31,55 @@ EMBEDDED_CONTACT = 0.6
 """Share of a segment's outline along its host from which on it counts as lying in or on it."""
 
 
-def detect_relations(scene: Scene) -> tuple[Relation, ...]:
+def detect_relations(scene: Scene, crucial: frozenset[frozenset[str]] | None = None) -> tuple[Relation, ...]:
     """All candidate secondary relations of `scene`, each pair at most once, in order of the pair.
 
     Thin white gaps between parts of one object are bridged in proportion to the picture. An object whose parts have no
     contact gets "near" relations that hold it together.
+
+    Args:
+        scene: the unedited picture.
+        crucial: pairs of segment names whose relation holds their object together, as somebody who looked at the
+            picture says (paper: a vision LLM); None leaves it to the rule of `assign_scopes`.
     """
     filled = [binary_fill_holes(s.mask) for s in scene.segments]
     borders = [Border(m) for m in filled]
+    reach = inter_reach(scene, borders)
     found: list[Relation] = []
     for a, b in combinations(range(len(scene.segments)), 2):
-        relation = _relate(scene, a, b, filled, borders)
+        relation = _relate(scene, a, b, filled, borders, reach)
         if relation is not None:
             found.append(relation)
-    found = assign_scopes(scene, found)
+    found = assign_scopes(scene, found, crucial)
     found += bridge_components(scene, found, borders)
     return tuple(found + bridge_objects(scene, found, borders))
 
 
+def inter_reach(scene: Scene, borders: Sequence[Border]) -> float:
+    """Widest gap that connects segments of different objects, px.
+
+    Where everything is of one colour (a glyph), things that meet cannot be drawn touching: they would run into one
+    another. Such a picture separates them by a gap of its own usual width, which counts as a contact.
+    """
+    least = INTER_REACH * scene.size
+    colours = np.array([scene.image[s.mask].mean(0) for s in scene.segments])
+    if np.ptp(colours, axis=0).max() > ALIKE:
+        return least
+    most = INTRA_REACH * scene.size
+    nearest = np.full(len(borders), np.inf)
+    for a, b in combinations(range(len(borders)), 2):
+        if not borders[a].far_from(borders[b], most):
+            nearest[[a, b]] = np.minimum(nearest[[a, b]], borders[a].distance(borders[b]))
+    usual = nearest[nearest <= most]
+    return min(max(least, GAP_SPREAD * float(np.median(usual))), most) if len(usual) else least
+
+
 def _relate(
-    scene: Scene, a: int, b: int, filled: list[Bool[np.ndarray, "H W"]], borders: list[Border]
+    scene: Scene, a: int, b: int, filled: list[Bool[np.ndarray, "H W"]], borders: list[Border], inter: float
 ) -> Relation | None:
     same_object = scene.segments[a].object == scene.segments[b].object
     kind, inner, outer = _containment(scene, a, b, filled)
-    reach = scene.size * (INTRA_REACH if same_object or kind == "inside" else INTER_REACH)
+    reach = scene.size * INTRA_REACH if same_object or kind == "inside" else inter
     if kind == "inside":
         contact = find_contact(borders[inner], borders[outer], scene.size, scene.size * SLACK)
         assert contact is not None

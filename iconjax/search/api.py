@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,6 +14,7 @@ from iconjax.dsl.pretty import to_text
 from iconjax.dsl.registry import Registry, default_registry
 from iconjax.dsl.units import Unit, pixels_per_unit
 from iconjax.scene.types import Scene
+from iconjax.search.advice import Advice
 from iconjax.search.coherent import CoherentSearch
 from iconjax.search.config import SearchConfig
 from iconjax.search.hints import hint_matrices
@@ -32,13 +33,9 @@ def search_edit(
     program: Program,
     config: SearchConfig | None = None,
     registry: Registry | None = None,
-    guesses: Mapping[int, Float[np.ndarray, "2 3"]] | None = None,
+    advice: Advice | None = None,
 ) -> SearchOutcome:
     """Find the transforms that meet `program` and leave `scene` coherent.
-
-    Args:
-        guesses: somebody's guess at the transforms by segment id: a further place for the default strategy to begin,
-            and its choice between equally good solutions.
 
     Raises:
         ProgramError: the program does not type-check or is too large.
@@ -46,14 +43,15 @@ def search_edit(
     """
     config = config or SearchConfig()
     begin = time.perf_counter()
-    setup = prepare(scene, program, config, registry)
+    advice = advice or Advice()
+    setup = prepare(scene, program, config, registry, advice.crucial)
     search: CoherentSearch | PaperSearch
     if config.strategy == "paper":
         search = PaperSearch(setup, registry or default_registry(), config)
         state, solved = search.run()
         found = _Found(solved.matrices, solved.residuals, state.relations, solved.score, tuple(search.notes))
     else:
-        search = CoherentSearch(setup, config, _guess(scene, guesses))
+        search = CoherentSearch(setup, config, _guess(scene, advice))
         best = search.run()
         found = _Found(best.matrices, best.primary, best.judgement.outcomes, best.cost, ())
     n = len(scene.segments)
@@ -78,11 +76,11 @@ def search_edit(
     )
 
 
-def _guess(scene: Scene, guesses: Mapping[int, Float[np.ndarray, "2 3"]] | None) -> Float[np.ndarray, "n 6"] | None:
-    if not guesses:
+def _guess(scene: Scene, advice: Advice) -> Float[np.ndarray, "n 6"] | None:
+    if not advice.guesses:
         return None
     where = {s.id: i for i, s in enumerate(scene.segments)}
-    return hint_matrices(len(where), {where[k]: m for k, m in guesses.items() if k in where})
+    return hint_matrices(len(where), {where[k]: m for k, m in advice.guesses.items() if k in where})
 
 
 @dataclass(frozen=True)

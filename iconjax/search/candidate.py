@@ -19,6 +19,10 @@ from iconjax.solve.arrays import Candidate
 from iconjax.solve.pose import Bodies
 
 
+UPRIGHT = 0.7
+"""Least share of down in the direction across a contact that bears the weight of what is above it."""
+
+
 @dataclass(frozen=True)
 class Sizes:
     """Static sizes of a solve: everything is padded to these."""
@@ -68,6 +72,21 @@ class Setting:
         pairs = [self.pair(r) for r in self.relations]
         counts = Counter(pairs)
         return tuple(counts[p] if p else 1 for p in pairs)
+
+    @cached_property
+    def sole_supports(self) -> frozenset[int]:
+        """Relations without which a thing would hang in the air: it stands on one other thing and on nothing else."""
+        below: dict[int, dict[int, set[int]]] = {}
+        for e, r in enumerate(self.relations):
+            down = float(r.contact.normal[1])
+            if r.scope == "inter" and r.kind != "inside" and abs(down) > UPRIGHT:
+                upper, lower = (r.a, r.b) if down > 0 else (r.b, r.a)
+                below.setdefault(self.pieces[upper], {}).setdefault(self.pieces[lower], set()).add(e)
+        grounded = {self.pieces[i] for i in range(len(self.pieces)) if self.facts.grounded[i]}
+        return frozenset(
+            e for piece, stands in below.items() if piece not in grounded and len(stands) == 1
+            for e in next(iter(stands.values()))
+        )  # fmt: skip
 
 
 def body_roots(state: State) -> tuple[int, ...]:

@@ -75,10 +75,16 @@ def static_size(count: int, sizes: Sequence[int], what: str) -> int:
     raise InputError(f"the picture has {count} {what}; at most {sizes[-1]} are possible: merge some segments")
 
 
-def prepare(scene: Scene, program: Program, config: SearchConfig, registry: Registry | None = None) -> Setup:
-    """Measure the scene, read the program, build the arrays."""
+def prepare(
+    scene: Scene,
+    program: Program,
+    config: SearchConfig,
+    registry: Registry | None = None,
+    crucial: frozenset[frozenset[str]] | None = None,
+) -> Setup:
+    """Measure the scene, read the program, build the arrays; `crucial` as in `detect_relations`."""
     registry = registry or default_registry()
-    relations = detect_relations(scene)
+    relations = detect_relations(scene, crucial)
     facts = gather_facts(scene, relations)
     intent = read_intent(program, scene)
     facts = replace(facts, alignments=(*_supports(facts, intent), *facts.alignments))
