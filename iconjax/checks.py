@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from iconjax.errors import ConfigError, InputError
 from iconjax.files import check_writable, image_format
+
+if TYPE_CHECKING:
+    from iconjax.language.base import Translator
 
 CASE_FILES = (
     "case.json",
@@ -19,9 +24,16 @@ CASE_FILES = (
 """Files of a case folder, which no output replaces."""
 
 
+def is_vector(picture: str | os.PathLike[str]) -> bool:
+    """Whether a path names an SVG, by its ending."""
+    return Path(picture).suffix.lower() in (".svg", ".svgz")
+
+
 def default_output(picture: str) -> Path:
-    """Where the edited picture goes when nobody says: `NAME-edited.png` in the current folder."""
+    """Where the edited picture goes when nobody says: `NAME-edited.png` (.svg for an SVG) in the current folder."""
     path = Path(picture)
+    if is_vector(picture):
+        return Path(f"{path.stem}-edited.svg")
     return Path(f"{path.resolve().name if path.is_dir() else path.stem}-edited.png")
 
 
@@ -39,35 +51,51 @@ def check_picture(picture: str, seg: str | None, labels: str | None) -> None:
             raise InputError(
                 f"{picture} is a case folder, which has its own segmentation: leave out --seg and --labels"
             )
+    elif is_vector(picture):
+        if seg is not None:
+            raise InputError(f"{picture} is an SVG, which has its segments in itself: leave out --seg")
     elif seg is None:
         raise InputError(f"{picture} is an image, so it needs --seg (a label map) and --labels; or give a case folder")
 
 
-def check_choices(translator: str | None, program: str | None, interpretations: int) -> None:
+def check_choices(
+    translator: str | None, program: str | None, interpretations: int, **llm: str | None
+) -> Translator | None:
     """Options that exclude each other, that are not supported, or that name no translator.
+
+    Args:
+        llm: options that only a language model has, as `iconjax.edit.choose.llm_options` takes them.
+
+    Returns:
+        The translator that the options choose; None where a program is given.
 
     Raises:
         ConfigError: the message says what to leave out or to write.
     """
-    if program is not None and translator is not None:
-        raise ConfigError("--program skips translation: leave out --translator")
+    for name in [n for n, value in [("translator", translator), *llm.items()] if value is not None]:
+        if program is not None:
+            raise ConfigError(f"--program skips translation: leave out --{name}")
     if interpretations < 1:
         raise ConfigError("--interpretations has to be at least 1")
-    if interpretations > 1:
-        raise ConfigError("--interpretations: only 1 is supported so far")
-    if program is None:
-        from iconjax.edit.choose import choose_translator
+    if interpretations > 1 and program is not None:
+        raise ConfigError("a program has one interpretation: leave out --interpretations")
+    if program is not None:
+        return None
+    from iconjax.edit.choose import choose_translator, llm_options
 
-        choose_translator(translator)
+    return choose_translator(llm_options(translator, **llm))
 
 
 def check_outputs(target: Path, json_file: str | None, trace: str | None, inputs: tuple[str | None, ...]) -> None:
-    """Output files that cannot be written, that collide, or that would overwrite an input.
+    """Output files that cannot be written, that collide, or that would overwrite an input, the picture being first.
 
     Raises:
         InputError: the first that is wrong.
     """
-    image_format(target)
+    if not is_vector(target):
+        image_format(target)
+    elif not is_vector(inputs[0] or ""):
+        raise InputError(f"cannot write {target}: only an edited SVG can be saved as SVG, name it .png")
     targets = [p for p in (target, json_file, trace) if p is not None and str(p) != "-"]
     places = [Path(p).resolve() for p in targets]
     taken = {Path(p).resolve() for p in inputs if p is not None}

@@ -11,8 +11,8 @@ import click
 
 from iconjax import __version__
 from iconjax.checks import check_choices, check_outputs, check_picture, default_output
+from iconjax.cli_eval import evaluate
 from iconjax.console import PoliteGroup, progress, say
-from iconjax.errors import InputError
 
 Command = Callable[..., Any]
 
@@ -44,21 +44,33 @@ def picture_options(command: Command) -> Command:
 
 
 translator_option = click.option(
-    "--translator", metavar="NAME", help="Who reads the request: auto (the default), offline or anthropic."
+    "--translator", metavar="NAME", help="Who reads the request: auto (the default), offline, anthropic or llm-replay."
 )
+
+
+def model_options(command: Command) -> Command:
+    """Options of a language model, which imply one."""
+    for decorate in (
+        click.option("--replay", metavar="DIR", help="Take the model's replies from this folder; no network."),
+        click.option("--record", metavar="DIR", help="Record what the model is asked and answers in this folder."),
+        click.option("--model", metavar="NAME", help="Language model that reads the request."),
+    ):
+        command = decorate(command)
+    return command
 
 
 @main.command(short_help="Edit a picture as a sentence asks.")
 @picture_options
 @click.argument("request", required=False)
 @translator_option
+@model_options
 @click.option(
     "--program",
     metavar="FILE",
     help="Constraints in the DSL, one call a line ('-' is stdin); skips translation.",
 )
 @click.option(
-    "-o", "--output", metavar="FILE", help="Edited picture; by default NAME-edited.png in the current folder."
+    "-o", "--output", metavar="FILE", help="Edited picture; by default NAME-edited.png in the current folder, .svg for an SVG."
 )
 @click.option(
     "--json",
@@ -74,19 +86,19 @@ translator_option = click.option(
     type=int,
     default=1,
     metavar="N",
-    help="Readings of the request to try; only 1 is supported so far.",
+    help="Most readings of an ambiguous request to follow; further pictures are written as NAME-2, NAME-3, ...",
 )
 def edit(
     picture: str, seg: str | None, labels: str | None, request: str | None, translator: str | None,
     program: str | None, output: str | None, json_file: str | None, trace: str | None, strategy: str,
-    strict: bool, interpretations: int,
+    strict: bool, interpretations: int, model: str | None, record: str | None, replay: str | None,
 ) -> int:  # fmt: skip
     """Edit CASE_OR_IMAGE as REQUEST says.
 
-    CASE_OR_IMAGE is a case folder, or an image with --seg and --labels. Without REQUEST, that of the case
-    folder is used.
+    CASE_OR_IMAGE is a case folder, an SVG (--labels names its segments, where the file does not), or an image
+    with --seg and --labels. Without REQUEST, that of the case folder is used.
     """
-    check_choices(translator, program, interpretations)
+    reader = check_choices(translator, program, interpretations, model=model, record=record, replay=replay)
     target = Path(output) if output is not None else default_output(picture)
     check_outputs(target, json_file, trace, inputs=(picture, seg, labels, program))
     check_picture(picture, seg, labels)
@@ -104,18 +116,24 @@ def edit(
             seg,
             request,
             labels=labels,
-            translator=translator,
+            translator=reader,
             program=text,
             config=config,
+            interpretations=interpretations,
             progress=stage,
         )
-    result.save(target)
+    for number, one in enumerate(result.interpretations or (result,), start=1):
+        one.save(target if number == 1 else target.with_stem(f"{target.stem}-{number}"))
+    for number, one in enumerate(result.interpretations, start=1):
+        say(f"reading {number} of {len(result.interpretations)}: {one.gloss}")
     if json_file == "-":
         click.echo(result.to_json())
     elif json_file is not None:
         result.to_json(json_file)
     if trace is not None:
         result.to_html(trace)
+    for note in result.vector.notes if result.vector is not None else ():
+        say(note)
     missed = result.missed()
     for constraint in missed:
         say(f"missed {constraint.text} by {amount(constraint)}")
@@ -128,16 +146,21 @@ def edit(
 @picture_options
 @click.argument("request", required=False)
 @translator_option
-def translate(picture: str, seg: str | None, labels: str | None, request: str | None, translator: str | None) -> None:
+@model_options
+def translate(
+    picture: str, seg: str | None, labels: str | None, request: str | None, translator: str | None,
+    model: str | None, record: str | None, replay: str | None,
+) -> None:  # fmt: skip
     """Print the constraints that REQUEST asks for, as a program that `iconjax edit --program` takes."""
     check_picture(picture, seg, labels)
+    reader = check_choices(translator, None, 1, model=model, record=record, replay=replay)
     with progress() as stage:
         stage("reading the request")
         from iconjax.edit.inputs import open_inputs
         from iconjax.edit.pipeline import read_request
 
         inputs = open_inputs(picture, seg, request, labels)
-        translation = read_request(inputs.request, inputs.scene, translator)
+        translation = read_request(inputs.request, inputs.scene, reader)
     notes = [f"request: {inputs.request}", f"translator: {translation.translator}", *translation.understood]
     for line in notes:
         click.echo("# " + " ".join(line.split()))
@@ -181,29 +204,7 @@ def dsl(name: str | None) -> None:
     click.echo("\n".join(list_operators() if name is None else describe_operator(name)))
 
 
-@main.command("eval", short_help="Measure methods on a benchmark folder.")
-@click.argument("folder")
-@click.option("--out", metavar="DIR", required=True, help="Folder for tables, pictures and records.")
-@click.option(
-    "--method",
-    metavar="NAME",
-    multiple=True,
-    help="What to measure, such as ours (the default), paper or 'ours +program'; may be repeated.",
-)
-@click.option("--case", "cases", metavar="ID", multiple=True, help="Measure this case only; may be repeated.")
-@click.option("--jobs", type=int, default=1, metavar="N", help="Processes to use.")
-@translator_option
-def evaluate(
-    folder: str, out: str, method: tuple[str, ...], cases: tuple[str, ...], jobs: int, translator: str | None
-) -> None:
-    """Measure methods on the case folders in FOLDER and print the table. What is done is not done again."""
-    if not Path(folder).is_dir():
-        raise InputError(f"there is no folder {folder}")
-    check_choices(translator, None, 1)
-    from iconjax.evaluation.run import run_benchmark
-
-    report = run_benchmark(folder, out, methods=method or None, translator=translator, cases=cases or None, jobs=jobs)
-    click.echo(report.markdown())
+main.add_command(evaluate)
 
 
 def _program(path: str) -> str:

@@ -44,7 +44,7 @@ def write_case(folder: Path, request: str = REQUEST, **changes: object) -> Path:
 def fake_search(satisfied: bool = True):
     """A `search_edit` that moves the first segment 8 px right and reports one of each thing."""
 
-    def search_edit(scene, program, config):
+    def search_edit(scene, program, config, advice=None):
         matrices = np.tile(np.eye(2, 3), (len(scene.segments), 1, 1))
         matrices[0, 0, 2] = 8
         first, second = scene.names[:2]
@@ -82,4 +82,4 @@ def fake_search(satisfied: bool = True):
 def use_fake_search(monkeypatch: pytest.MonkeyPatch, satisfied: bool = True) -> None:
     """Put the stand-in in place of the engine."""
     # By module, not by dotted name: `iconjax.edit` is the function.
-    monkeypatch.setattr(import_module("iconjax.edit.pipeline"), "search_edit", fake_search(satisfied))
+    monkeypatch.setattr(import_module("iconjax.edit.attempt"), "search_edit", fake_search(satisfied))

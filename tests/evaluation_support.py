@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+import os
+import sys
+import time
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -11,9 +14,15 @@ import numpy as np
 from PIL import Image
 from shapely.geometry import MultiPolygon, box
 
+from iconjax.evaluation.cases import EvalCase
+from iconjax.evaluation.editors import Edited
+from iconjax.evaluation.run import run_benchmark
 from iconjax.evaluation.stage import Stage
 
 BENCHMARK = Path(__file__).parent.parent / "eval" / "benchmark"
+
+ENVIRONMENT = {**os.environ, "PYTHONPATH": os.pathsep.join(p for p in (str(Path(__file__).parent), *sys.path) if p)}
+"""For processes that tests start: they find what the tests find."""
 
 BOXES = {1: (100, 100, 200, 140), 2: (200, 100, 260, 140), 3: (300, 300, 340, 440), 4: (120, 110, 140, 130)}
 """A bar, a block that touches its right end, a post far away, a window in the bar."""
@@ -66,3 +75,34 @@ def write_case(folder: Path, *, goal: list[dict[str, Any]] | None = None, truth:
     for name, data in (("case", case), ("checks", checks), ("ground_truth", solved)):
         (folder / f"{name}.json").write_text(json.dumps(data))
     return folder
+
+
+class Slow:
+    """Moves the red square as asked, but takes its time; says which case it works on, and in which process.
+
+    Args:
+        out: folder for a file with the process's number for each case begun; None writes none.
+        seconds: how long it takes.
+    """
+
+    def __init__(self, out: Path | None = None, seconds: float = 0.1) -> None:
+        self.out, self.seconds = out, seconds
+
+    def __call__(self, case: EvalCase) -> Edited:
+        if self.out is not None:
+            (self.out / f"{case.id}.pid").write_text(str(os.getpid()))
+            print(case.id)
+        time.sleep(self.seconds)
+        return Edited({1: shift(20, 0)}, case.truth_image, seconds=0.0)
+
+
+def run_slowly(bench: str, out: str, jobs: int = 1) -> None:
+    """Run the slow method; for a process that is to be killed."""
+    run_benchmark(bench, out, [], editors={"slow": Slow(Path(out) / "slow")}, jobs=jobs)
+
+
+def wait_until(done: Callable[[], bool], seconds: float = 60) -> None:
+    """Wait for something that another process does, but not for ever."""
+    deadline = time.monotonic() + seconds
+    while not done() and time.monotonic() < deadline:
+        time.sleep(0.01)

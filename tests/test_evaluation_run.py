@@ -5,15 +5,19 @@ from __future__ import annotations
 import csv
 import json
 import os
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
-from evaluation_support import shift, write_case
+from evaluation_support import ENVIRONMENT, shift, wait_until, write_case
 
 from iconjax.errors import ConfigError, InputError
 from iconjax.evaluation.cases import EvalCase
-from iconjax.evaluation.methods import Edited, parse_method
+from iconjax.evaluation.editors import Edited
+from iconjax.evaluation.methods import parse_method
+from iconjax.evaluation.progress import Step
 from iconjax.evaluation.record import read_record
 from iconjax.evaluation.run import run_benchmark
 from iconjax.evaluation.sheet import contact_sheets
@@ -38,6 +42,24 @@ def die_on_bad(case: EvalCase) -> Edited:
     return Edited({1: shift(20, 0)}, case.truth_image)
 
 
+def start_slow_run(bench: Path, out: Path, jobs: int = 1) -> subprocess.Popen[str]:
+    """A run in a process of its own, to be killed."""
+    code = (
+        f"import evaluation_support as s\nif __name__ == '__main__': s.run_slowly({str(bench)!r}, {str(out)!r}, {jobs})"
+    )
+    script = bench.parent / "run_slowly.py"
+    script.write_text(code)
+    return subprocess.Popen([sys.executable, str(script)], env=ENVIRONMENT, stdout=subprocess.PIPE, text=True)
+
+
+def alive(pid: int) -> bool:
+    """Whether a process still runs; one that nobody has waited for yet does not."""
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False
+
+
 @pytest.fixture
 def bench(tmp_path: Path) -> Path:
     for name in ("a", "bad", "c"):
@@ -46,15 +68,18 @@ def bench(tmp_path: Path) -> Path:
 
 
 def test_a_bad_case_is_reported_and_the_rest_goes_on(bench: Path, tmp_path: Path) -> None:
-    lines: list[str] = []
-    report = run_benchmark(bench, tmp_path / "out", [], editors={"fake": Editor()}, progress=lines.append)
-    row = {r.method: r for r in report.rows}["fake"]
-    assert (row.cases, row.failed, row.satisfied) == (3, 1, None)
-    assert row.right == row.goal == row.coherence == pytest.approx(2 / 3)
-    unedited = {r.method: r for r in report.rows}["unedited"]
-    assert row.cd == pytest.approx(unedited.cd / 3) and row.mse == pytest.approx(unedited.mse / 3)
-    assert unedited.right == 0 and unedited.coherence == 1
-    assert "fake: 2/3 bad: failed: ZeroDivisionError: no such luck at all" in lines
+    steps: list[Step] = []
+    report = run_benchmark(bench, tmp_path / "out", [], editors={"fake": Editor()}, progress=steps.append)
+    rows = {r.method: r for r in report.rows}
+    assert (rows["fake"].cases, rows["fake"].failed) == (3, 1)
+    fake, unedited = ({name: f and f.mean for name, f in rows[m].figures.items()} for m in ("fake", "unedited"))
+    assert fake["satisfied"] is None
+    assert fake["right"] == fake["goal"] == fake["coherence"] == pytest.approx(2 / 3)
+    assert fake["CD"] == pytest.approx(unedited["CD"] / 3) and fake["MSE"] == pytest.approx(unedited["MSE"] / 3)
+    assert unedited["right"] == 0 and unedited["coherence"] == 1
+    assert [(step.done, step.total) for step in steps] == [(k, 9) for k in range(1, 10)]
+    assert "6/9 fake: bad: failed: ZeroDivisionError: no such luck at all" in map(str, steps)
+    assert [(r.case, r.method) for r in report.failures] == [("bad", "fake")]
 
 
 def test_tables_and_settings_are_written(bench: Path, tmp_path: Path) -> None:
@@ -67,6 +92,8 @@ def test_tables_and_settings_are_written(bench: Path, tmp_path: Path) -> None:
     assert [row["right"] for row in cases] == ["1", "0", "1"] and "ZeroDivision" in cases[1]["trouble"]
     run = json.loads((out / "run.json").read_text())
     assert run["cases"] == ["a", "bad", "c"] and {"iconjax", "jax", "code"} <= set(run["versions"])
+    assert run["state"] == "finished" and run["seeds"]["bootstrap"] > 0
+    assert [method["name"] for method in run["methods"]] == ["unedited", "truth", "fake"]
     assert str(tmp_path) not in (out / "run.json").read_text()
     assert not [p for p in out.rglob("*") if p.name.startswith(".")]
     record = json.loads((out / "fake" / "a.json").read_text())
@@ -135,11 +162,44 @@ def test_transforms_that_do_not_fit_are_that_case_s_failure(bench: Path, tmp_pat
 
 
 def test_a_process_that_dies_costs_only_its_own_case(bench: Path, tmp_path: Path) -> None:
-    from iconjax.evaluation.run import evaluate_folder
-
-    records = evaluate_folder(sorted(bench.iterdir()), tmp_path / "out", "fake", die_on_bad, settings={}, jobs=2)
+    report = run_benchmark(bench, tmp_path / "out", [], editors={"fake": die_on_bad}, jobs=2)
+    records = report.of("fake")
     assert [r.right for r in records] == [True, False, True]
     assert records[1].error == "RuntimeError: the process died"
+
+
+def test_a_run_killed_in_the_middle_goes_on_where_it_stopped(tmp_path: Path) -> None:
+    for k in range(8):
+        write_case(tmp_path / "bench" / f"case-{k}")
+    out = tmp_path / "out"
+    child = start_slow_run(tmp_path / "bench", out)
+    records = out / "slow"
+    wait_until(lambda: child.poll() is not None or len(list(records.glob("*.json"))) >= 3)
+    child.kill()
+    child.communicate()
+    kept = {path.stem: path.read_bytes() for path in records.glob("*.json")}
+    assert 3 <= len(kept) < 8
+    assert json.loads((out / "run.json").read_text())["state"] == "running"
+    said, _ = start_slow_run(tmp_path / "bench", out).communicate(timeout=60)
+    assert said.split() == sorted({f"case-{k}" for k in range(8)} - set(kept))
+    assert {name: (records / f"{name}.json").read_bytes() for name in kept} == kept
+    assert json.loads((out / "run.json").read_text())["state"] == "finished"
+    assert len((out / "cases.csv").read_text().splitlines()) == 1 + 3 * 8
+
+
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="tells by /proc which processes are alive")
+def test_processes_end_when_the_one_that_started_them_is_killed(tmp_path: Path) -> None:
+    for k in range(6):
+        write_case(tmp_path / "bench" / f"case-{k}")
+    out = tmp_path / "out"
+    child = start_slow_run(tmp_path / "bench", out, jobs=2)
+    wait_until(lambda: child.poll() is not None or len(list(out.glob("slow/*.pid"))) >= 2)
+    child.kill()
+    child.communicate()
+    workers = {int(path.read_text()) for path in out.glob("slow/*.pid")}
+    assert workers and child.pid not in workers
+    wait_until(lambda: not any(map(alive, workers)), 10)
+    assert not any(map(alive, workers))
 
 
 def test_bad_arguments_are_errors_before_any_work(bench: Path, tmp_path: Path) -> None:
@@ -158,10 +218,14 @@ def test_bad_arguments_are_errors_before_any_work(bench: Path, tmp_path: Path) -
 
 def test_names_of_methods() -> None:
     method = parse_method("paper +program -RS")
-    assert method.name == "paper -RS +program" and method.strategy == "paper"
-    assert not method.relation_search and method.motion_search and not method.reads_request
+    assert method.name == "paper -RS +program" and method.strategy == "paper" and method.translator == "program"
+    assert not method.relation_search and method.motion_search
     assert parse_method("ours -MS -RS").strategy == "coherent"
-    for name in ("", "truth -MS", "ours -XS", "coherent"):
+    assert parse_method("ours", "offline").translator == "offline"
+    assert parse_method("ours +program", "offline").translator == "program"
+    assert parse_method("dm +image").image and parse_method("dm").translator == "llm-replay"
+    assert parse_method("dc", "offline").translator == "llm-replay" and parse_method("dc", "llm").translator == "llm"
+    for name in ("", "truth -MS", "ours -XS", "coherent", "dm -MS", "ours +image", "ours +program +offline"):
         with pytest.raises(ConfigError, match="unknown method"):
             parse_method(name)
 

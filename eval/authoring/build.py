@@ -28,7 +28,17 @@ from iconjax.scene.build import build_scene
 from iconjax.scene.load import load_case
 
 HERE = Path(__file__).parent
-LICENSES = {"fluent-emoji-flat": "MIT", "maki": "CC0-1.0", "temaki": "CC0-1.0"}
+LICENSES = {
+    "flat-color-icons": "MIT",
+    "fluent-emoji-flat": "MIT",
+    "fxemoji": "Apache-2.0",
+    "healthicons": "MIT",
+    "maki": "CC0-1.0",
+    "material-symbols": "Apache-2.0",
+    "mdi": "Apache-2.0",
+    "noto": "Apache-2.0",
+    "temaki": "CC0-1.0",
+}
 IDENTITY = np.eye(3)
 
 

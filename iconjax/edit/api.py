@@ -13,10 +13,11 @@ if TYPE_CHECKING:
     from iconjax.edit.config import EditConfig
     from iconjax.edit.result import EditResult
     from iconjax.language.base import Translator
+    from iconjax.scene.svg import SvgScene
     from iconjax.scene.types import Segmentation
 
     Path = str | os.PathLike[str]
-    Picture = np.ndarray | Image | Path
+    Picture = np.ndarray | Image | Path | SvgScene
 
 
 def edit(
@@ -28,12 +29,14 @@ def edit(
     translator: Translator | str | None = None,
     program: Path | Sequence[str] | None = None,
     config: EditConfig | None = None,
+    interpretations: int = 1,
 ) -> EditResult:
     """Edit an icon as a sentence asks.
 
     Args:
         image: the picture, as an (H, W, 3) uint8 array, a PIL image or a path; or the path of a case
-            folder, which brings its own segmentation, labels and request.
+            folder, which brings its own segmentation, labels and request; or the path of an SVG (or what
+            `iconjax.scene.svg.open_svg` made of one), whose elements are the segments.
         seg: which pixel belongs to what: a `Segmentation`, or a label map (array, PIL image or path) in which
             0 is background.
         request: what to change, in English.
@@ -43,6 +46,8 @@ def edit(
             offline translator.
         program: constraints in the DSL, as text, a list of calls or a path object; skips translation.
         config: how to search, see `EditConfig`.
+        interpretations: most readings of an ambiguous request to follow; the result is that of the likeliest, and its
+            `interpretations` holds one result for each reading that leads to a different picture.
 
     Returns:
         The edited picture with everything known about it; look at `satisfied` before you rely on it.
@@ -53,4 +58,13 @@ def edit(
     """
     from iconjax.edit.pipeline import run_edit  # here and not above: it imports JAX
 
-    return run_edit(image, seg, request, labels=labels, translator=translator, program=program, config=config)
+    return run_edit(
+        image,
+        seg,
+        request,
+        labels=labels,
+        translator=translator,
+        program=program,
+        config=config,
+        interpretations=interpretations,
+    )

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from difflib import get_close_matches
 from importlib import import_module
+from importlib.util import find_spec
+from typing import Any
 
 from iconjax.errors import ConfigError
 from iconjax.language.base import Translator
+from iconjax.language.llm.secrets import VARIABLES, configured
+from iconjax.language.llm.settings import LlmSettings
+from iconjax.scene.types import Scene
 
-CREDENTIALS = ("ANTHROPIC_API_KEY", "ANTHROPIC_AUTH_TOKEN")
+CREDENTIALS = VARIABLES
 """Environment variables that configure Anthropic; only whether one is set is looked at here."""
-
-PLANNED = {"anthropic": "this version has no Anthropic translator yet; use 'offline', or an object with .translate"}
-"""Names that documentation speaks of and that may not be registered, each with what to do instead."""
+LLM = ("anthropic", "llm-replay")
+"""Translators that are a language model, or its recorded replies."""
 
 
 def _offline() -> Translator:
@@ -22,15 +25,18 @@ def _offline() -> Translator:
     return translator
 
 
-_FACTORIES: dict[str, Callable[[], Translator]] = {"offline": _offline}
+_FACTORIES: dict[str, Callable[[], Translator]] = {
+    "offline": _offline,
+    "anthropic": lambda: make_translator("anthropic", LlmSettings.from_environment()),
+    "llm-replay": lambda: make_translator("llm-replay", LlmSettings.from_environment()),
+}
 
 
 def register_translator(name: str, factory: Callable[[], Translator]) -> None:
     """Make a translator selectable by `name` in `edit` and on the command line.
 
     Args:
-        name: what the user writes; once "anthropic" is registered, it is the automatic choice wherever
-            credentials are set.
+        name: what the user writes; a name that is taken is replaced.
         factory: makes the translator when it is first needed.
     """
     if not name or name == "auto":
@@ -47,14 +53,14 @@ def choose_translator(wanted: Translator | str | None = None) -> Translator:
     """The translator to use.
 
     Args:
-        wanted: an object with `.translate`, a registered name, or None or "auto": Anthropic where it is
-            registered and credentials are set, else the offline translator.
+        wanted: an object with `.translate`, a registered name, or None or "auto": Anthropic where its SDK is
+            installed and credentials are set, else the offline translator.
 
     Raises:
         ConfigError: no translator of that name, one without credentials, or an object that cannot translate.
     """
     if wanted is None or wanted == "auto":
-        return _FACTORIES["anthropic" if "anthropic" in _FACTORIES and has_credentials() else "offline"]()
+        return _FACTORIES["anthropic" if has_credentials() and find_spec("anthropic") else "offline"]()
     if isinstance(wanted, str):
         return _by_name(wanted)
     if not callable(getattr(wanted, "translate", None)):
@@ -62,18 +68,75 @@ def choose_translator(wanted: Translator | str | None = None) -> Translator:
     return wanted
 
 
+def llm_options(
+    wanted: str | None, *, model: str | None = None, record: str | None = None, replay: str | None = None, **more: Any
+) -> Translator | str | None:
+    """The translator for options that only a language model has; `wanted` itself where none is given.
+
+    Args:
+        wanted: name of the translator, or None to let the options decide: "llm-replay" for `replay`, else "anthropic".
+        model: name of the model.
+        record: folder to record exchanges in.
+        replay: folder of recordings to answer from.
+        more: further fields of `LlmSettings`.
+
+    Raises:
+        ConfigError: they do not fit each other or the translator.
+    """
+    options = {"model": model, "record": record, "replay": replay, **more}
+    given = [name for name, value in options.items() if value is not None]
+    if not given:
+        return wanted
+    name = wanted if wanted not in (None, "auto") else "llm-replay" if replay is not None else "anthropic"
+    if name not in LLM:
+        raise ConfigError(f"{', '.join(given)}: only for a language model, not for translator {name!r}")
+    if name == "anthropic" and replay is not None:
+        raise ConfigError("replay: answers come from recordings, so the translator is 'llm-replay', not 'anthropic'")
+    return make_translator(str(name), LlmSettings.from_environment(**options))
+
+
+def make_translator(name: str, settings: LlmSettings) -> Translator:
+    """The LLM translator "anthropic", or "llm-replay", which answers from recordings.
+
+    Raises:
+        ConfigError: no credentials, no SDK, or no folder of recordings.
+    """
+    from iconjax.language.llm.record import Recorder, Replayer
+    from iconjax.language.llm.translator import AnthropicTranslator
+
+    client: Any
+    if name == "llm-replay":
+        if not settings.replay:
+            raise ConfigError("translator 'llm-replay' needs a folder of recordings: give --replay or ICONJAX_REPLAY")
+        client = Replayer(settings.replay)
+    else:
+        if not has_credentials() and not settings.base_url:
+            raise ConfigError(f"translator 'anthropic' needs credentials: set {' or '.join(CREDENTIALS)}")
+        from iconjax.language.llm.client import AnthropicClient
+
+        client = AnthropicClient(settings)
+    if settings.record:
+        client = Recorder(client, settings.record)
+    return AnthropicTranslator(client, settings, scene_connections, name)
+
+
+def scene_connections(scene: Scene) -> list[tuple[str, str, str]]:
+    """Which segments of a scene are connected, in words for a prompt."""
+    from iconjax.relations.detect import detect_relations
+
+    words = {"overlap": "touches", "inside": "lies in", "contain": "contains"}
+    names = scene.names
+    return [(names[r.a], words[r.kind], names[r.b]) for r in detect_relations(scene) if r.kind in words]
+
+
 def has_credentials() -> bool:
     """Whether credentials for Anthropic are configured in the environment."""
-    return any(os.environ.get(name, "").strip() for name in CREDENTIALS)
+    return configured()
 
 
 def _by_name(name: str) -> Translator:
     if name not in _FACTORIES:
-        if name in PLANNED:
-            raise ConfigError(f"translator {name!r} is not available: {PLANNED[name]}")
         close = get_close_matches(name, _FACTORIES, 1)
         hint = f"did you mean {close[0]!r}?" if close else f"it can be 'auto' or {', '.join(map(repr, _FACTORIES))}"
         raise ConfigError(f"there is no translator {name!r}; {hint}")
-    if name == "anthropic" and not has_credentials():
-        raise ConfigError(f"translator 'anthropic' needs credentials: set {' or '.join(CREDENTIALS)}")
     return _FACTORIES[name]()

@@ -6,13 +6,17 @@ import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from iconjax.checks import is_vector
 from iconjax.errors import InputError
 from iconjax.files import describe
 from iconjax.scene.build import build_scene
 from iconjax.scene.load import load_case
 from iconjax.scene.types import Scene
+
+if TYPE_CHECKING:
+    from iconjax.scene.svg import SvgScene
 
 LARGEST_TEXT = 1 << 20
 """Bytes: no program is as long, so a longer file is the wrong file."""
@@ -25,10 +29,12 @@ class Inputs:
     Attributes:
         scene: the picture with its segments.
         request: the caller's request, else that of the case folder, else "".
+        vector: the opened SVG, where the picture is one.
     """
 
     scene: Scene
     request: str
+    vector: SvgScene | None = None
 
 
 def open_inputs(image: Any, seg: Any = None, request: str | None = None, labels: Any = None) -> Inputs:
@@ -45,9 +51,28 @@ def open_inputs(image: Any, seg: Any = None, request: str | None = None, labels:
         case = load_case(image)
         scene = build_scene(case.image, case.segmentation)
         return Inputs(scene, case.request if request is None else request)
+    vector = _open_vector(image, seg, labels)
+    if vector is not None:
+        return Inputs(vector.scene, request or "", vector)
     if seg is None:
         raise InputError("no segmentation: give seg (a label map) and labels, or a case folder in place of the image")
     return Inputs(build_scene(image, seg, labels), request or "")
+
+
+def _open_vector(image: Any, seg: Any, labels: Any) -> SvgScene | None:
+    """The SVG that `image` is or names, None where it is a raster picture."""
+    if isinstance(image, (str, os.PathLike)) and is_vector(image):
+        from iconjax.scene.svg import open_svg  # only an SVG needs it
+
+        if seg is not None:
+            raise InputError(f"{image} is an SVG, which has its segments in itself: leave out seg")
+        return open_svg(image, labels)
+    if type(image).__name__ != "SvgScene":
+        return None
+    if seg is not None or labels is not None:
+        raise InputError("an opened SVG has segments and labels: leave out seg, and give labels to open_svg")
+    vector: SvgScene = image
+    return vector
 
 
 def is_folder(image: Any) -> bool:

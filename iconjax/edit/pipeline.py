@@ -2,30 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
+from dataclasses import replace
 from time import perf_counter
 from typing import Any
 
 import numpy as np
-from jaxtyping import UInt8
 
 from iconjax import __version__
-from iconjax.dsl.nodes import Program
-from iconjax.dsl.parse import parse
 from iconjax.dsl.pretty import to_text
+from iconjax.edit.attempt import Attempt, attempt, distinct, main_reading, reconsider
 from iconjax.edit.choose import choose_translator
 from iconjax.edit.config import EditConfig
 from iconjax.edit.inputs import Inputs, open_inputs, program_text
 from iconjax.edit.result import EditResult
-from iconjax.errors import ConfigError, InputError, ProgramError, TranslationError
+from iconjax.errors import ConfigError, InputError
 from iconjax.language.base import Translation
 from iconjax.render.depth import DepthOrder, depth_order
 from iconjax.render.raster import render
 from iconjax.scene.types import Scene
-from iconjax.search.api import search_edit
-from iconjax.search.types import SearchOutcome
+from iconjax.search.advice import Advice
 
 Progress = Callable[[str], None]
+MOST_READINGS = 8
+"""Readings of one request that can be asked for."""
 
 
 def run_edit(
@@ -37,67 +37,68 @@ def run_edit(
     translator: Any = None,
     program: Any = None,
     config: EditConfig | None = None,
+    interpretations: int = 1,
     progress: Progress = lambda stage: None,
 ) -> EditResult:
     """Do what `iconjax.edit` promises, telling `progress` which stage begins."""
     if config is not None and not isinstance(config, EditConfig):
         raise ConfigError(f"config is a {type(config).__name__}; it has to be an EditConfig")
+    check_interpretations(interpretations, program is not None)
     settings = (config or EditConfig()).to_search()
     progress("reading the picture")
     inputs = open_inputs(image, seg, request, labels)
-    scene = inputs.scene
     start = perf_counter()
     if program is None:
         progress("reading the request")
-        translation = read_request(inputs.request, scene, translator)
-        parsed = _parse(translation.program, scene, translation.translator)
+        chosen = choose_translator(translator)
+        translation = read_request(inputs.request, inputs.scene, chosen)
     else:
-        translation = Translation((), "program")
-        parsed = _parse(program_text(program), scene, None)
-    translated = perf_counter()
+        chosen = None
+        translation = Translation(_calls(program_text(program)), "program")
+    translated = perf_counter() - start
     progress("searching")
-    outcome = search_edit(scene, parsed, settings)
-    searched = perf_counter()
+    author = translation.translator if program is None else None
+    advice = Advice()
+    first = attempt(inputs.scene, main_reading(translation), author, settings, advice)
+    first, translation = reconsider(inputs.scene, first, translation, chosen, settings, advice)
+    further = translation.readings[1:interpretations]
+    others = [attempt(inputs.scene, reading, author, settings, advice) for reading in further]
     progress("drawing")
+    results = [_draw(inputs, translation, one, translated) for one in distinct(inputs.scene, [first, *others])]
+    return replace(results[0], interpretations=tuple(results) if interpretations > 1 else ())
+
+
+def _draw(inputs: Inputs, translation: Translation, done: Attempt, translated: float) -> EditResult:
+    outcome, scene = done.outcome, inputs.scene
+    start = perf_counter()
     depth = depth_order(scene)
     picture = render(scene, outcome.matrices, depth.order)
-    timings = {
-        "translate": translated - start,
-        "compile": float(outcome.timings.get("compile", 0.0)),
-        "search": float(outcome.timings.get("search", searched - translated)),
-        "render": perf_counter() - searched,
-    }
-    return _result(inputs, translation, parsed, outcome, depth, picture, timings)
-
-
-def _result(
-    inputs: Inputs,
-    translation: Translation,
-    program: Program,
-    outcome: SearchOutcome,
-    depth: DepthOrder,
-    picture: UInt8[np.ndarray, "H W 3"],
-    timings: dict[str, float],
-) -> EditResult:
-    segments = inputs.scene.segments
     return EditResult(
         image=picture,
-        transforms={s.id: np.array(m, dtype=np.float64) for s, m in zip(segments, outcome.matrices, strict=True)},
-        program=tuple(to_text(program)),
+        transforms={s.id: np.array(m, dtype=np.float64) for s, m in zip(scene.segments, outcome.matrices, strict=True)},
+        program=tuple(to_text(done.program)),
         relations=outcome.relations,
-        satisfied=all(c.satisfied for c in outcome.constraints),
+        satisfied=not done.missed,
         constraints=outcome.constraints,
         score=float(outcome.score),
         motion_states=outcome.motion_states,
-        depth_order=tuple(segments[i].id for i in depth.order),
-        timings=timings,
+        depth_order=tuple(scene.segments[i].id for i in depth.order),
+        timings={
+            "translate": translated,
+            "compile": float(outcome.timings.get("compile", 0.0)),
+            "search": float(outcome.timings.get("search", 0.0)),
+            "render": perf_counter() - start,
+        },
         translator=translation.translator,
+        rounds=translation.rounds,
         request=inputs.request,
+        gloss=done.reading.gloss,
         understood=translation.understood,
-        notes=(*outcome.notes, *_depth_notes(inputs.scene, depth)),
+        notes=(*(inputs.vector.notes if inputs.vector else ()), *outcome.notes, *_depth_notes(scene, depth)),
         trace=outcome.trace,
         version=__version__,
-        scene=inputs.scene,
+        scene=scene,
+        vector=inputs.vector,
     )
 
 
@@ -115,13 +116,20 @@ def read_request(request: str, scene: Scene, translator: Any = None) -> Translat
     return chosen.translate(request, scene)
 
 
-def _parse(calls: str | Sequence[str], scene: Scene, author: str | None) -> Program:
-    try:
-        return parse(calls, scene.names, scene.objects)
-    except ProgramError as error:
-        if author is None:  # the caller's own program
-            raise
-        raise TranslationError(f"translator {author!r} wrote constraints that are not valid: {error}") from error
+def check_interpretations(count: int, programmed: bool) -> None:
+    """Whether so many readings can be asked for.
+
+    Raises:
+        ConfigError: not a number from 1 to 8, or several of a program, which has one meaning.
+    """
+    if isinstance(count, bool) or not isinstance(count, int) or not 1 <= count <= MOST_READINGS:
+        raise ConfigError(f"interpretations is {count!r}; it can be 1 to {MOST_READINGS}")
+    if count > 1 and programmed:
+        raise ConfigError("a program has one interpretation: leave out interpretations, or give a request")
+
+
+def _calls(program: str | tuple[str, ...]) -> tuple[str, ...]:
+    return (program,) if isinstance(program, str) else program
 
 
 def _depth_notes(scene: Scene, depth: DepthOrder) -> list[str]:

@@ -10,16 +10,21 @@ import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from html import escape
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from jaxtyping import Float, UInt8
 from PIL import Image
 
+from iconjax.checks import is_vector
 from iconjax.edit.explain import explain
+from iconjax.errors import InputError
 from iconjax.files import image_format, write_bytes, write_text
 from iconjax.scene.types import Scene
 from iconjax.search.types import ConstraintReport, RelationReport, TraceEntry
+
+if TYPE_CHECKING:
+    from iconjax.scene.svg import SvgScene
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,6 +49,10 @@ class EditResult:
         trace: every candidate that the search solved.
         version: version of iconjax.
         scene: the picture before the edit, with its segments.
+        rounds: how often the translator was asked to think again.
+        gloss: the reading that was followed, in one line.
+        vector: the SVG that was edited; None for a raster picture.
+        interpretations: where several readings were asked for, the result of each different one, this one first.
     """
 
     image: UInt8[np.ndarray, "H W 3"] = field(repr=False)
@@ -63,17 +72,34 @@ class EditResult:
     trace: tuple[TraceEntry, ...] = field(repr=False)
     version: str
     scene: Scene = field(repr=False)
+    rounds: int = 0
+    gloss: str = ""
+    vector: SvgScene | None = field(default=None, repr=False)
+    interpretations: tuple[EditResult, ...] = field(default=(), repr=False)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the edited picture; its name decides the format. The file appears whole or not at all.
 
+        An edited SVG can be written as .svg or .svgz: the same file with a `transform` on what moved.
+
         Raises:
-            InputError: unknown ending, missing folder, no permission, full disk.
+            InputError: unknown ending, .svg for what was no SVG, missing folder, no permission, full disk.
         """
+        if is_vector(path):
+            if self.vector is None:
+                raise InputError(f"cannot write {path}: only an edited SVG can be saved as SVG, name it .png")
+            from iconjax.render.svg import save_svg
+
+            moves = np.array([self.transforms[s.id] for s in self.scene.segments])
+            return save_svg(self.vector, moves, path)
         write_bytes(path, encode(self.image, image_format(path)))
 
     def to_dict(self) -> dict[str, Any]:
-        """The result as plain data, with the keys of the result format."""
+        """The result as plain data, with the keys of the result format; "rounds" where the translator had to think again
+        and "interpretations" where several were asked for."""
+        further: dict[str, Any] = {"rounds": self.rounds} if self.rounds else {}
+        if self.interpretations:
+            further["interpretations"] = [{"gloss": r.gloss, **r.to_dict()} for r in self.interpretations]
         return {
             "request": self.request,
             "program": list(self.program),
@@ -97,6 +123,7 @@ class EditResult:
             "depth_order": list(self.depth_order),
             "timings": {k: finite(v) for k, v in self.timings.items()},
             "version": self.version,
+            **further,
         }
 
     def to_json(self, path: str | os.PathLike[str] | None = None) -> str:

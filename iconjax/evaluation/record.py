@@ -4,22 +4,40 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import asdict, dataclass, field, fields, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from iconjax.errors import IconjaxError
 from iconjax.evaluation.affine import read_transforms
 from iconjax.evaluation.cases import EvalCase
 from iconjax.evaluation.checks import CheckResult, Verdict, judge
-from iconjax.evaluation.methods import Edited
-from iconjax.evaluation.metrics import chamfer, mse, satisfied
+from iconjax.evaluation.editors import Edited
+from iconjax.evaluation.metrics import chamfer, holds, mse, satisfied
 from iconjax.files import write_text
 
-FORMAT = 1
+FORMAT = 2
 """Version of the record's file format."""
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class Violation:
+    """How far a constraint of the reference program is from holding.
+
+    Attributes:
+        text: the constraint.
+        amount, unit: by how much it is missed.
+        holds: whether that is within the tolerance of the metric.
+    """
+
+    text: str
+    amount: float
+    unit: str
+    holds: bool
 
 
 @dataclass(frozen=True)
@@ -35,6 +53,7 @@ class CaseRecord:
         goal, coherence: the checks.
         seconds: time the edit took.
         transforms: segment id -> 2x3 matrix.
+        violations: the reference program, constraint by constraint; empty where nobody measured.
         error: why there is no edit; the numbers are then those of the unedited picture, and nothing is right.
         details: further facts from the method.
     """
@@ -49,6 +68,7 @@ class CaseRecord:
     coherence: tuple[CheckResult, ...]
     seconds: float
     transforms: Mapping[str, list[list[float]]]
+    violations: tuple[Violation, ...] = ()
     error: str | None = None
     details: Mapping[str, Any] = field(default_factory=dict)
 
@@ -73,8 +93,18 @@ class CaseRecord:
         return self.goal_met and self.coherent
 
 
+ROWS: dict[str, Callable[..., Any]] = {"goal": CheckResult, "coherence": CheckResult, "violations": Violation}
+"""Fields of a record that are tables, and what their rows are."""
+
+
 def score(case: EvalCase, method: str, edited: Edited, seconds: float = 0.0, fingerprint: str = "") -> CaseRecord:
     """Score an edit by all metrics.
+
+    Args:
+        case, method: whose edit it is.
+        edited: the edit.
+        seconds: time that the editor took, where the edit itself does not know.
+        fingerprint: of everything that the edit depends on.
 
     Raises:
         InputError: transforms or a picture that do not fit the case.
@@ -91,8 +121,11 @@ def score(case: EvalCase, method: str, edited: Edited, seconds: float = 0.0, fin
         satisfied=None if reports is None else satisfied(reports, max(case.size)),
         goal=verdict.goal,
         coherence=verdict.coherence,
-        seconds=seconds,
+        seconds=seconds if edited.seconds is None else edited.seconds,
         transforms={str(key): matrix.tolist() for key, matrix in matrices.items()},
+        violations=tuple(
+            Violation(r.text, float(r.violation), r.unit, holds(r, max(case.size))) for r in reports or ()
+        ),
         details=dict(edited.details),
     )
 
@@ -102,14 +135,14 @@ def failure(case: EvalCase | str, method: str, error: BaseException, seconds: fl
     text = str(error) if isinstance(error, IconjaxError) else f"{type(error).__name__}: {error}"
     text = " ".join(text.split())
     if isinstance(case, str):
-        return CaseRecord(case, method, "", None, None, False, (), (), seconds, {}, text)
+        return CaseRecord(case, method, "", None, None, False, (), (), seconds, {}, error=text)
     return replace(score(case, method, Edited({}, case.image), seconds), satisfied=False, error=text)
 
 
 def write_record(path: Path, record: CaseRecord) -> None:
     """Write a record; the file appears whole or not at all."""
     data = {"format": FORMAT, **_fields(record), "right": record.right}
-    data |= {name: [asdict(check) for check in getattr(record, name)] for name in ("goal", "coherence")}
+    data |= {name: [asdict(item) for item in getattr(record, name)] for name in ROWS}
     write_text(path, json.dumps(_plain(data), indent=1, ensure_ascii=False, allow_nan=False) + "\n")
 
 
@@ -119,15 +152,15 @@ def read_record(path: Path) -> CaseRecord | None:
         data = json.loads(path.read_text(encoding="utf-8"))
         if data.pop("format") == FORMAT:
             data.pop("right")
-            data |= {name: _checks(data[name]) for name in ("goal", "coherence")}
+            data |= {name: _rows(data[name], kind) for name, kind in ROWS.items()}
             return CaseRecord(**data)
     return None
 
 
-def _checks(rows: list[dict[str, Any]]) -> tuple[CheckResult, ...]:
+def _rows(rows: list[dict[str, Any]], kind: Callable[..., T]) -> tuple[T, ...]:
     # What JSON has no number for was written as null.
     rows = [{key: math.inf if value is None else value for key, value in row.items()} for row in rows]
-    return tuple(CheckResult(**row) for row in rows)
+    return tuple(kind(**row) for row in rows)
 
 
 def _fields(record: CaseRecord) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""Tables of a benchmark: one row for each method, and one for each case and method."""
+"""Everything a benchmark found, and the files that tell it: tables, one row a case, and a page to look at."""
 
 from __future__ import annotations
 
@@ -8,48 +8,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from iconjax.evaluation.methods import BASELINES
 from iconjax.evaluation.record import CaseRecord
+from iconjax.evaluation.summary import METRICS, STAGES, USAGE, Comparison, Row, compare, numbers_of, summarise
+from iconjax.evaluation.tables import NOTE, comparison_table, result_table, time_table, usage_table
 from iconjax.files import write_text
 
-COLUMNS = ("method", "cases", "failed", "CD", "MSE", "satisfied", "right", "goal", "coherence", "seconds")
-
-
-@dataclass(frozen=True)
-class Row:
-    """One method in numbers; a share counts all its cases, and a failed case counts as not met.
-
-    Attributes:
-        method: its name.
-        cases: how many cases were run.
-        failed: how many gave an error; for CD and MSE such a case counts as unedited.
-        cd, mse: means over the cases that have the number; None where none has.
-        satisfied, right, goal, coherence: shares of cases, 0..1; `satisfied` is None where nobody measured.
-        seconds: mean time of an edit.
-    """
-
-    method: str
-    cases: int
-    failed: int
-    cd: float | None
-    mse: float | None
-    satisfied: float | None
-    right: float | None
-    goal: float | None
-    coherence: float | None
-    seconds: float | None
-
-    def cells(self) -> tuple[str, ...]:
-        """The row as text, in the order of `COLUMNS`."""
-        shares = (self.satisfied, self.right, self.goal, self.coherence)
-        return (
-            self.method,
-            str(self.cases),
-            str(self.failed),
-            _number(self.cd, ".3f"),
-            _number(self.mse, ".0f"),
-            *(_number(share, ".3f") for share in shares),
-            _number(self.seconds, ".1f"),
-        )
+CASE_HEAD = (
+    *("case", "method", "CD", "MSE", "satisfied", "right", "goal", "coherence", "seconds"),
+    *(*STAGES, *USAGE, "trouble"),
+)
 
 
 @dataclass(frozen=True)
@@ -64,39 +32,74 @@ class Report:
     records: tuple[CaseRecord, ...]
     methods: tuple[str, ...]
 
+    def of(self, method: str) -> tuple[CaseRecord, ...]:
+        """The records of a method."""
+        return tuple(record for record in self.records if record.method == method)
+
     @property
     def rows(self) -> tuple[Row, ...]:
         """One row for each method."""
-        return tuple(summarise(name, [r for r in self.records if r.method == name]) for name in self.methods)
+        return tuple(summarise(name, self.of(name)) for name in self.methods)
+
+    @property
+    def comparisons(self) -> tuple[Comparison, ...]:
+        """The first method against all others but the solution itself."""
+        first, *others = self.methods
+        if first in BASELINES:
+            return ()
+        pairs = (compare(self.of(first), self.of(name)) for name in others if name != "truth")
+        return tuple(pair for pair in pairs if pair is not None)
+
+    @property
+    def failures(self) -> tuple[CaseRecord, ...]:
+        """What gave an error."""
+        return tuple(record for record in self.records if record.error is not None)
 
     def markdown(self) -> str:
-        """The rows as a Markdown table."""
-        lines = [COLUMNS, ("---",) + ("---:",) * (len(COLUMNS) - 1), *(row.cells() for row in self.rows)]
-        return "\n".join("| " + " | ".join(line) + " |" for line in lines) + "\n"
+        """All tables as Markdown."""
+        rows = self.rows
+        parts = [result_table(rows), NOTE + "\n", comparison_table(self.comparisons), time_table(rows)]
+        return "\n".join(part for part in (*parts, usage_table(rows)) if part)
 
 
-def summarise(method: str, records: Sequence[CaseRecord]) -> Row:
-    """Bring the records of a method to one row."""
-    measured = any(r.satisfied is not None and r.error is None for r in records)
-    satisfied = [float(r.satisfied) for r in records if r.satisfied is not None]
-    return Row(
-        method=method,
-        cases=len(records),
-        failed=sum(r.error is not None for r in records),
-        cd=_mean([r.cd for r in records if r.cd is not None]),
-        mse=_mean([r.mse for r in records if r.mse is not None]),
-        satisfied=_mean(satisfied) if measured else None,
-        right=_mean([float(r.right) for r in records]),
-        goal=_mean([float(r.goal_met) for r in records]),
-        coherence=_mean([float(r.coherent) for r in records]),
-        seconds=_mean([r.seconds for r in records]),
-    )
+def write_report(out: Path, report: Report, cases: Sequence[Path]) -> None:
+    """Write `table.md`, `table.csv`, `cases.csv` and `report.html`.
+
+    Args:
+        out: folder of the run.
+        report: what it found.
+        cases: the case folders, for the page's pictures.
+
+    Raises:
+        InputError: the folder cannot be written.
+    """
+    from iconjax.evaluation.page import benchmark_page  # here, because it needs this module
+
+    write_text(out / "table.md", report.markdown())
+    write_text(out / "table.csv", _csv(row_cells(report.rows)))
+    write_text(out / "cases.csv", _csv([CASE_HEAD, *(case_cells(record) for record in report.records)]))
+    write_text(out / "report.html", benchmark_page(out, report, cases))
+
+
+def row_cells(rows: Sequence[Row]) -> list[tuple[str, ...]]:
+    """The rows as plain numbers for `table.csv`, with the ends of each interval."""
+    ends = [f"{name}{end}" for name in METRICS for end in ("", " low", " high")]
+    table = [("method", "cases", "failed", *ends, *STAGES, "seconds", *USAGE)]
+    for row in rows:
+        numbers: list[float | None] = []
+        for name in METRICS:
+            figure = row.figures[name]
+            numbers += [None] * 3 if figure is None else [figure.mean, figure.low, figure.high]
+        numbers += [row.seconds.get(name) for name in (*STAGES, "total")]
+        numbers += [row.usage.get(name) for name in USAGE]
+        table.append((row.method, str(row.cases), str(row.failed), *(_number(n, ".5g") for n in numbers)))
+    return table
 
 
 def case_cells(record: CaseRecord) -> tuple[str, ...]:
     """A record as a row of `cases.csv`."""
-    trouble = record.error or "; ".join(f"{check.text}: {check.detail}" for check in record.verdict.failed)
     flags = (record.satisfied, record.right, record.goal_met, record.coherent)
+    stages, usage = numbers_of(record, "timings"), numbers_of(record, "usage")
     return (
         record.case,
         record.method,
@@ -104,30 +107,24 @@ def case_cells(record: CaseRecord) -> tuple[str, ...]:
         _number(record.mse, ".1f"),
         *("" if flag is None else str(int(flag)) for flag in flags),
         f"{record.seconds:.2f}",
-        trouble,
+        *(_number(stages.get(name), ".3f") for name in STAGES),
+        *(_number(usage.get(name), ".0f") for name in USAGE),
+        "; ".join(trouble(record)),
     )
 
 
-def write_report(out: Path, report: Report) -> None:
-    """Write `table.md`, `table.csv` and `cases.csv`.
-
-    Raises:
-        InputError: the folder cannot be written.
-    """
-    write_text(out / "table.md", report.markdown())
-    write_text(out / "table.csv", _csv([COLUMNS, *(row.cells() for row in report.rows)]))
-    head = ("case", "method", "CD", "MSE", "satisfied", "right", "goal", "coherence", "seconds", "trouble")
-    write_text(out / "cases.csv", _csv([head, *(case_cells(record) for record in report.records)]))
+def trouble(record: CaseRecord) -> list[str]:
+    """What is wrong with an edit: its error, the constraints missed, the checks not passed."""
+    if record.error is not None:
+        return [record.error]
+    missed = [f"{v.text} missed by {v.amount:.3g} {v.unit}".rstrip() for v in record.violations if not v.holds]
+    return missed + [f"{check.text}: {check.detail}" for check in record.verdict.failed]
 
 
 def _csv(rows: Sequence[Sequence[str]]) -> str:
     stream = io.StringIO()
     csv.writer(stream, lineterminator="\n").writerows(rows)
     return stream.getvalue()
-
-
-def _mean(values: Sequence[float]) -> float | None:
-    return sum(values) / len(values) if values else None
 
 
 def _number(value: float | None, style: str) -> str:

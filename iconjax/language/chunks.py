@@ -49,6 +49,7 @@ class Chunk:
         data: the Phrase, Amount, Quantity or lexicon entry.
         text: as written.
         start: position of its first word.
+        end: position behind its last word.
     """
 
     kind: str
@@ -56,6 +57,7 @@ class Chunk:
     data: Any
     text: str
     start: int
+    end: int
 
 
 def chunk(words: Sequence[str], lexicon: Lexicon, names: Names) -> list[Chunk]:
@@ -73,7 +75,7 @@ def chunk(words: Sequence[str], lexicon: Lexicon, names: Names) -> list[Chunk]:
         if kind == "unsupported":
             raise TranslationError(f'"{" ".join(words[i:end])}": {value}')
         if kind != "stop":
-            out.append(Chunk(kind, value, data, " ".join(words[i:end]).replace(" 's", "'s"), i))
+            out.append(Chunk(kind, value, data, " ".join(words[i:end]).replace(" 's", "'s"), i, end))
         i = end
     return out
 

@@ -51,8 +51,11 @@ def depth_order(scene: Scene) -> DepthOrder:
 
     Of two touching segments the one whose inner paths between points of the contact region are longer lies
     behind. Where neither is clearly longer, one that lies within the other's box is in front, else the one
-    with the larger id; segments that do not touch keep the order of their ids.
+    with the larger id; segments that do not touch keep the order of their ids. A scene with layers has its
+    order already: that of each segment's largest layer.
     """
+    if scene.layers:
+        return DepthOrder(_painted(scene))
     reach = max(1, round(TOUCH * scene.size / 512))
     label = np.full(scene.image.shape[:2], -1, np.int32)
     for i, segment in enumerate(scene.segments):
@@ -69,6 +72,16 @@ def depth_order(scene: Scene) -> DepthOrder:
         else:
             decided[j, i] = np.log((b + 1) / (a + 1))
     return _arrange(len(scene.segments), decided, open_pairs)
+
+
+def _painted(scene: Scene) -> tuple[int, ...]:
+    """Positions of the segments by the place of their largest layer, back to front."""
+    place = {i: (0, -1) for i in range(len(scene.segments))}  # of each segment: size, rank
+    for rank, layer in enumerate(scene.layers):
+        size = int(np.count_nonzero(layer.data[..., 3]))
+        if layer.segment is not None and size >= place[layer.segment][0]:
+            place[layer.segment] = (size, rank)
+    return tuple(sorted(place, key=lambda i: place[i][1]))
 
 
 def _default(first: Segment, second: Segment, pair: tuple[int, int]) -> tuple[int, int]:

@@ -10,6 +10,7 @@ from jaxtyping import Bool, Float, UInt8
 from iconjax.errors import InputError
 from iconjax.render.bridge import bridge
 from iconjax.render.hidden import continue_colour, heal, hidden_region, rim_of
+from iconjax.render.layers import render_layers
 from iconjax.render.matting import Matte, solve_matte
 from iconjax.render.ownership import Box, Ownership, find_ownership, grown
 from iconjax.render.warp import Sprite, warp
@@ -24,7 +25,7 @@ def render(scene: Scene, matrices: Float[np.ndarray, "n 2 3"], order: Sequence[i
     Args:
         scene: the unedited picture and its n segments.
         matrices: (n, 2, 3) transforms, original to edited pixels, in the order of `scene.segments`.
-        order: positions of the segments, back to front.
+        order: positions of the segments, back to front. A scene with layers is painted in their order.
 
     Returns:
         (H, W, 3) picture. With identity transforms it is the input bit for bit.
@@ -32,9 +33,13 @@ def render(scene: Scene, matrices: Float[np.ndarray, "n 2 3"], order: Sequence[i
     Raises:
         InputError: a matrix is not finite, or `order` is not a permutation of the segments' positions.
     """
-    matrices = _checked(scene, matrices, order)
+    matrices = checked(scene, matrices)
+    if sorted(order) != list(range(len(scene.segments))):
+        raise InputError(f"the painting order must name each of the {len(scene.segments)} segments once")
     if not len(scene.segments) or (matrices == np.eye(2, 3)).all():
         return scene.image.copy()
+    if scene.layers:
+        return render_layers(scene, matrices)
     own = find_ownership(scene)
     matte = solve_matte(scene, own, matrices)
     height, width = own.owner.shape
@@ -61,13 +66,16 @@ def outlines_after(
     )
 
 
-def _checked(scene: Scene, matrices: Float[np.ndarray, "n 2 3"], order: Sequence[int]) -> Float[np.ndarray, "n 2 3"]:
+def checked(scene: Scene, matrices: Float[np.ndarray, "n 2 3"]) -> Float[np.ndarray, "n 2 3"]:
+    """One finite transform for each segment; those that hardly move anything are the exact identity.
+
+    Raises:
+        InputError: not one for each, or one that is not finite.
+    """
     count = len(scene.segments)
     matrices = np.array(matrices, np.float64).reshape(-1, 2, 3)
     if len(matrices) != count:
         raise InputError(f"the scene has {count} segments but {len(matrices)} transforms were given")
-    if sorted(order) != list(range(count)):
-        raise InputError(f"the painting order must name each of the {count} segments once")
     if not np.isfinite(matrices).all():
         bad = int(np.nonzero(~np.isfinite(matrices).all(axis=(1, 2)))[0][0])
         raise InputError(f"the transform of segment {scene.segments[bad].name!r} is not finite")

@@ -51,6 +51,23 @@ class Segment:
 
 
 @dataclass(frozen=True)
+class Layer:
+    """Something a vector picture paints in one go, alone and whole: what others hide of it is there too.
+
+    Attributes:
+        segment: position of the segment it belongs to, None for what is part of the background.
+        data: (h, w, 4) premultiplied red, green, blue and coverage, 0..255.
+        top: row of its first row in the picture; may lie outside.
+        left: column of its first column.
+    """
+
+    segment: int | None
+    data: UInt8[np.ndarray, "h w 4"]
+    top: int
+    left: int
+
+
+@dataclass(frozen=True)
 class Scene:
     """A picture with its segments, in the order of their ids.
 
@@ -58,11 +75,14 @@ class Scene:
         image: (H, W, 3) the picture.
         segments: the segments, ids ascending.
         background: (3,) colour that fills what a moved segment uncovers.
+        layers: for a vector picture what it is painted of, back to front; the picture is their composition on
+            white. Empty for a raster picture.
     """
 
     image: UInt8[np.ndarray, "H W 3"]
     segments: tuple[Segment, ...]
     background: UInt8[np.ndarray, " 3"]
+    layers: tuple[Layer, ...] = ()
 
     @property
     def width(self) -> int:

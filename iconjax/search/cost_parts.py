@@ -17,7 +17,10 @@ def unasked_costs(e: Evidence) -> Terms:
     for members in _groups(e):
         matrix = e.matrices[members[0]]
         along = any(same_motion(matrix, e.matrices[i]) for i in case.asked_segments)
-        yield ("along", costs.along) if along else ("moved", costs.moved)
+        if along:
+            yield "along", costs.along
+        elif not _echoes(e, members):
+            yield "moved", costs.moved
         for i in members:
             if case.facts.host[i] not in members:
                 yield from _carried_off(e, i, along)
@@ -36,6 +39,16 @@ def _groups(e: Evidence) -> list[list[int]]:
         else:
             same.append(i)
     return groups
+
+
+def _echoes(e: Evidence, members: list[int]) -> bool:
+    """Whether the motion is the mirror image of another's: a pair that stays symmetric moves by one decision."""
+    for m in e.case.facts.mirrors:
+        if m.b in members and e.moved(m.a) and not e.case.asked[m.a]:
+            off = m.off(e.features) - m.off(e.case.facts.features)
+            if off < 2 * e.case.unit and abs(e.motion.stretch(m.a) - e.motion.stretch(m.b)) < 0.01:
+                return True
+    return False
 
 
 def _carried_off(e: Evidence, i: int, along: bool) -> Terms:

@@ -52,6 +52,7 @@ def _relation(e: Evidence, r: Relation, afloat: float) -> tuple[str, float, str]
     loss = case.shapes.loss(r, e.matrices)
     near = 1.0
     if r.kind == "near":
+        near = costs.anyway if r.scope == "intra" else 1.0
         near += (costs.broken["intra"] / costs.broken["near"] - 1) * closeness(r, case.setting.size)
     broken = near * afloat * costs.broken[_kind(r)]
     slide = min(near * _slide(e, r, along, across), broken)

@@ -110,6 +110,7 @@ class Costs:
         pulled: the same for sides that came apart or into each other by `pull_scale` or more, across the contact.
         broad: how much dearer that gets for each share of both outlines, beyond a fifth, that lies at the contact.
         carrier: how much dearer it gets where the larger of two things moves and leaves the smaller behind.
+        anyway: share of the costs of a "near" relation that counts where both parts are held by something else.
         afloat: how much dearer it is to break a relation without which a thing hangs in the air.
         bearing: share of it that counts between what turns on request and a stand that stays.
         moved: another set of parts that moves in a way of its own though nobody asked; plus `moved_area` for its area.
@@ -143,6 +144,7 @@ class Costs:
     )
     broad: float = 4.0
     carrier: float = 2.0
+    anyway: float = 0.3
     afloat: float = 2.0
     bearing: float = 0.3
     slide_scale: float = 50.0
