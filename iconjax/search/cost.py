@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Float
 
 from iconjax.search.candidate import Setting
-from iconjax.search.cost_parts import asked_costs, idle_costs, unasked_costs
+from iconjax.search.cost_parts import asked_costs, idle_costs, odd_segments, unasked_costs
 from iconjax.search.cost_relations import relation_costs
 from iconjax.search.cost_scene import surrounding_costs
 from iconjax.search.evidence import Case, Evidence
@@ -32,12 +32,14 @@ class Judgement:
         outcomes: for each relation "ST", "WK", "N" or "F" as the result has it.
         strained: relations that cost something.
         unmet: whether a primary constraint fails.
+        odd: segments that changed though nobody asked, those that changed the most first: distorted, turned, moved.
     """
 
     terms: Mapping[str, float]
     outcomes: tuple[str, ...]
     strained: tuple[int, ...]
     unmet: bool
+    odd: tuple[int, ...] = ()
 
     @property
     def total(self) -> float:
@@ -70,4 +72,4 @@ class Judge:
             if cost > 0:
                 terms[name] = terms.get(name, 0.0) + float(cost)
         strained = tuple(k for k, (_, cost, _) in enumerate(relations) if cost > STRAINED)
-        return Judgement(terms, tuple(o for o, _, _ in relations), strained, unmet > 0)
+        return Judgement(terms, tuple(o for o, _, _ in relations), strained, unmet > 0, odd_segments(e))

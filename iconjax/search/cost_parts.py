@@ -27,6 +27,12 @@ def unasked_costs(e: Evidence) -> Terms:
             yield from _distorted(e, i)
 
 
+def odd_segments(e: Evidence) -> tuple[int, ...]:
+    """Segments that changed unasked, those with the greatest change of a kind first: distorted, turned, moved."""
+    moved = [i for i in range(len(e.matrices)) if e.moved(i) and not e.case.asked[i]]
+    return tuple(sorted(moved, key=lambda i: (-round(e.motion.stretch(i), 2), -round(abs(float(e.motion.turn[i]))))))
+
+
 def _groups(e: Evidence) -> list[list[int]]:
     """Unasked segments that moved, by their motion."""
     groups: list[list[int]] = []

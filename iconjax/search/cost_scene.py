@@ -34,10 +34,15 @@ def _misaligned(e: Evidence, a: Alignment) -> float:
 
 
 def _asymmetric(e: Evidence, m: Mirror) -> float:
-    """A pair that turned, that mirrors about what turned, or of which one was asked to move, is meant to be uneven."""
+    """A pair that turned, that mirrors about what turned, or of which one was asked to move, is meant to be uneven.
+
+    Where what is between them changes size, both sides of it are to move and not one.
+    """
     case = e.case
     turned = any(abs(e.motion.turn[i]) > 0.5 for i in (m.a, m.b, m.about))
     if turned or case.asked[m.a] != case.asked[m.b]:
         return 0.0
+    if e.motion.stretch(m.about) > 0.02 and e.moved(m.a) != e.moved(m.b):
+        return case.costs.asymmetric
     off = (m.off(e.features) - m.off(case.facts.features)) / case.unit
     return case.costs.asymmetric * min(1.0, off / 15) if off > 2 else 0.0

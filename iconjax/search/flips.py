@@ -41,7 +41,9 @@ def flips(setting: Setting, state: State, judgement: Judgement) -> Iterator[Stat
 
 def _hot(setting: Setting, state: State, judgement: Judgement) -> list[int]:
     relations = setting.relations
-    hot = list(dict.fromkeys(i for e in judgement.strained for i in (relations[e].a, relations[e].b)))
+    hot = [i for i in judgement.odd if "stretched" in judgement.terms]
+    hot += [i for e in judgement.strained for i in (relations[e].a, relations[e].b)]
+    hot = list(dict.fromkeys(hot))
     moving = [i for i in range(len(state.modes)) if state.mode(i) != "N"]
     if judgement.unmet:
         hot += [i for i in sorted(setting.intent.mentioned) if i not in hot]
