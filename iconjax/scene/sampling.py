@@ -6,12 +6,15 @@ from collections.abc import Sequence
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
+from scipy.spatial import ConvexHull, QhullError
 
 Loops = Sequence[Float[np.ndarray, "_ 2"]]
 """Closed outlines, each (V, 2) without a repeated first vertex."""
 
 ISOTROPIC = 1.08
 """Shapes that are less elongated than this have no direction of their own."""
+EDGE_NEAR, EDGE_SHARE = 5.0, 0.6
+"""Sides within so many degrees of the axis of inertia give the axis where they make up this share of both flanks."""
 AXIS_ALIGNED = 1.0
 """Principal axes within this many degrees of a picture axis are that axis."""
 CORNER_SHARE = 0.6
@@ -150,17 +153,35 @@ def principal_axis(loops: Loops) -> Float[np.ndarray, " 2"]:
     """Unit vector of the long direction of the region inside the loops, pointing right (if vertical, down).
 
     Shapes without a long direction of their own get that of the longer side of their box, in doubt the
-    horizontal.
+    horizontal. Where straight sides run along the axis of inertia within a few degrees, their direction counts: a
+    slanted bar or a striped stick lies level when its sides do.
     """
     values, vectors = np.linalg.eigh(moments(loops)[2])
     if _ratio(values) < ISOTROPIC:
         wide, high = np.ptp(np.concatenate(list(loops)), axis=0)
         return np.array([0.0, 1.0]) if high > 1.02 * wide else np.array([1.0, 0.0])
-    axis = vectors[:, 1]
+    axis = _along_edges(np.concatenate(list(loops)), vectors[:, 1])
     flat = np.abs(axis) < np.sin(np.deg2rad(AXIS_ALIGNED))
     if flat.any():
         return np.where(flat, 0.0, 1.0)
     return np.asarray(axis * np.sign(axis[0]))
+
+
+def _along_edges(points: Float[np.ndarray, "n 2"], axis: Float[np.ndarray, " 2"]) -> Float[np.ndarray, " 2"]:
+    """`axis` turned into the mean direction of the hull's sides that are almost parallel to it, if these are long."""
+    try:
+        hull = points[ConvexHull(points).vertices]
+    except QhullError:  # all on one line
+        return axis
+    side = np.roll(hull, -1, 0) - hull
+    side *= np.sign(side @ axis)[:, None]
+    length = np.linalg.norm(side, axis=1)
+    near = (side @ axis > np.cos(np.deg2rad(EDGE_NEAR)) * length) & (length > 0)
+    extent = float(np.ptp(points @ axis))
+    if length[near].sum() < EDGE_SHARE * 2 * extent:
+        return axis
+    total = side[near].sum(0)
+    return np.asarray(total / np.linalg.norm(total))
 
 
 def elongation(loops: Loops) -> float:

@@ -18,7 +18,6 @@ from iconjax.search.weights import Forces
 from iconjax.solve.arrays import Candidate
 from iconjax.solve.pose import Bodies
 
-
 UPRIGHT = 0.7
 """Least share of down in the direction across a contact that bears the weight of what is above it."""
 
@@ -74,19 +73,32 @@ class Setting:
         return tuple(counts[p] if p else 1 for p in pairs)
 
     @cached_property
-    def sole_supports(self) -> frozenset[int]:
-        """Relations without which a thing would hang in the air: it stands on one other thing and on nothing else."""
+    def bearers(self) -> dict[int, dict[int, set[int]]]:
+        """For each piece the pieces that bear it, with the relations that say so: it rests on them from above, and
+        they stand on the ground or on something that does. (What hangs below a thing does not bear it.)"""
         below: dict[int, dict[int, set[int]]] = {}
         for e, r in enumerate(self.relations):
             down = float(r.contact.normal[1])
             if r.scope == "inter" and r.kind != "inside" and abs(down) > UPRIGHT:
                 upper, lower = (r.a, r.b) if down > 0 else (r.b, r.a)
                 below.setdefault(self.pieces[upper], {}).setdefault(self.pieces[lower], set()).add(e)
-        grounded = {self.pieces[i] for i in range(len(self.pieces)) if self.facts.grounded[i]}
-        return frozenset(
-            e for piece, stands in below.items() if piece not in grounded and len(stands) == 1
-            for e in next(iter(stands.values()))
-        )  # fmt: skip
+        firm = {self.pieces[i] for i in np.flatnonzero(self.facts.grounded)}
+        while more := {p for p, stands in below.items() if stands.keys() & firm} - firm:
+            firm |= more
+        return {p: {q: es for q, es in stands.items() if q in firm} for p, stands in below.items()}
+
+    def support(self, e: int) -> str:
+        """What relation `e` is to gravity: "sole" where a thing would hang in the air without it, "beside" where both
+        things rest on something else, else ""."""
+        pieces = self.pair(self.relations[e])
+        if pieces is None:
+            return ""
+        grounded = {self.pieces[i] for i in np.flatnonzero(self.facts.grounded)}
+        for piece in pieces:
+            stands = self.bearers.get(piece, {})
+            if piece not in grounded and len(stands) == 1 and e in next(iter(stands.values())):
+                return "sole"
+        return "beside" if all(self.bearers.get(p, {}).keys() - set(pieces) for p in pieces) else ""
 
 
 def body_roots(state: State) -> tuple[int, ...]:

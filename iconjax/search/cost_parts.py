@@ -17,7 +17,7 @@ def unasked_costs(e: Evidence) -> Terms:
     for members in _groups(e):
         matrix = e.matrices[members[0]]
         along = any(same_motion(matrix, e.matrices[i]) for i in case.asked_segments)
-        if along:
+        if along or _borne(e, members):
             yield "along", costs.along
         elif not _echoes(e, members):
             yield "moved", costs.moved
@@ -45,6 +45,20 @@ def _groups(e: Evidence) -> list[list[int]]:
         else:
             same.append(i)
     return groups
+
+
+def _borne(e: Evidence, members: list[int]) -> bool:
+    """Whether the members follow, without turning or changing size, the very place of an asked part of their own object
+    that they are fixed to."""
+    case = e.case
+    if any(e.motion.stretch(i) > 0.005 or abs(e.motion.turn[i]) > 0.3 for i in members):
+        return False
+    for r in case.setting.relations:
+        ends = {r.a, r.b}
+        fixed = r.scope == "intra-crucial" and ends & set(members) and any(case.asked[i] for i in ends - set(members))
+        if fixed and max(case.shapes.slip(r, e.matrices, e.motion.turn, 0.0)) < 1.5 * case.unit:
+            return True
+    return False
 
 
 def _echoes(e: Evidence, members: list[int]) -> bool:
@@ -111,6 +125,8 @@ def asked_costs(e: Evidence) -> Terms:
     for i, j in combinations(turning, 2):
         apart = float(abs(turn[i] - turn[j]))
         yield "uneven", costs.uneven * min(1.0, apart / 10) if apart > 0.5 else 0.0
+    drifts = [_drift(e, i) for i in asked if case.asked[i] == {"scale"}]
+    yield "drift", costs.drift * min(1.0, max(drifts, default=0.0) / 20)
     for i in asked:
         kinds, stretch = case.asked[i], e.motion.stretch(i)
         if case.facts.grounded[i] and not kinds & {"translate", "rotate"} and e.lifted(i) > 1.5:
@@ -121,3 +137,11 @@ def asked_costs(e: Evidence) -> Terms:
             yield "extra", costs.extra * min(1.0, 0.3 + stretch)
         elif scale_kind(e.state.mode(i)) and stretch > 1.2:
             yield "extra", 0.5 * (stretch - 1.2)
+
+
+def _drift(e: Evidence, i: int) -> float:
+    """How far sideways the middle of segment `i` went, px at 512 x 512: what changes its size does so where it is.
+
+    Up and down, it stands or hangs on something.
+    """
+    return float(abs(e.features[i, 1] - e.case.facts.features[i, 1])) / e.case.unit

@@ -17,8 +17,9 @@ def relation_costs(e: Evidence) -> list[tuple[str, float, str]]:
     relations counts in full, the others hardly.
     """
     relations = e.case.setting.relations
-    supports = e.case.setting.sole_supports
-    found = [_relation(e, r, e.case.costs.afloat if k in supports else 1.0) for k, r in enumerate(relations)]
+    costs = e.case.costs
+    weight = {"sole": costs.afloat, "beside": costs.beside, "": 1.0}
+    found = [_relation(e, r, weight[e.case.setting.support(k)]) for k, r in enumerate(relations)]
     pairs = [e.case.setting.pair(r) for r in relations]
     best: dict[tuple[int, int], float] = {}
     for pair, (_, cost, _) in zip(pairs, found, strict=True):
@@ -38,7 +39,7 @@ def _kind(r: Relation) -> str:
     return r.kind if r.kind in ("near", "inside") else r.scope.replace("intra-crucial", "crucial")
 
 
-def _relation(e: Evidence, r: Relation, afloat: float) -> tuple[str, float, str]:
+def _relation(e: Evidence, r: Relation, weight: float) -> tuple[str, float, str]:
     case, costs = e.case, e.case.costs
     if same_motion(e.matrices[r.a], e.matrices[r.b], 1e-5):
         return "F" if e.moved(r.a) else "ST", 0.0, ""
@@ -54,7 +55,7 @@ def _relation(e: Evidence, r: Relation, afloat: float) -> tuple[str, float, str]
     if r.kind == "near":
         near = costs.anyway if r.scope == "intra" else 1.0
         near += (costs.broken["intra"] / costs.broken["near"] - 1) * closeness(r, case.setting.size)
-    broken = near * afloat * costs.broken[_kind(r)]
+    broken = near * weight * costs.broken[_kind(r)]
     slide = min(near * _slide(e, r, along, across), broken)
     cost = slide + (broken - slide) * loss
     return "N" if loss > 0.5 else "WK" if slip > 4.0 else "ST", cost, "broken" if loss > 0.5 else "slid"

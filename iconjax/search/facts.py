@@ -111,19 +111,21 @@ def gather_facts(scene: Scene, relations: Sequence[Relation]) -> Facts:
     disc = np.pi / 4 * (x1 - x0) * (y1 - y0)
     hull = np.array([_polygon_area(support_points(s.loops, 64)) for s in scene.segments])
     square = np.minimum(x1 - x0, y1 - y0) / np.maximum(np.maximum(x1 - x0, y1 - y0), 1e-9)
-    grounded = _grounded(scene, boxes)
+    hung = _hung(scene, relations, features)
+    disc_like = (square > 0.88) & (np.abs(hull / np.maximum(disc, 1e-9) - 1) < 0.08)
+    grounded = _grounded(scene, boxes) & ~(hung & disc_like)  # a disc that hangs may reach as low as anything
     host = _hosts(scene, relations)
     return Facts(
         features=features,
         area=area / area.sum(),
-        round=(square > 0.88) & (np.abs(hull / np.maximum(disc, 1e-9) - 1) < 0.08),
+        round=disc_like,
         elongated=np.array([elongation(s.loops) for s in scene.segments]),
         long_dir=np.array([principal_axis(s.loops) for s in scene.segments]),
         host=host,
         grounded=grounded,
         alignments=_alignments(scene, relations, features, grounded),
         mirrors=_mirrors(scene, relations, features),
-        hung=_hung(scene, relations, features),
+        hung=hung,
     )
 
 

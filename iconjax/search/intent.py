@@ -109,7 +109,7 @@ def read_intent(program: Program, scene: Scene) -> Intent:
     for members, kinds in asked.items():
         movable = tuple(i for i in members if i not in fixed)
         if movable:
-            extents = frozenset().union(*(e for m, e, _ in spoken if set(m) & set(movable) and _fits(m, members)))
+            extents = _extents(constraints, scene, members)
             turns = any(t for m, _, t in spoken if set(m) & set(movable))
             things.append(Thing(movable, frozenset(kinds), extents, turns))
     mentioned = frozenset(i for m, _, _ in spoken for i in m)
@@ -120,6 +120,31 @@ def read_intent(program: Program, scene: Scene) -> Intent:
         tuple(things), frozenset(fixed), tuple(together), mentioned, _placed(constraints, scene), changed & {"x", "y"},
         tuple(_pairs(constraints, scene, "hinge", "coincide_on_point")),
     )  # fmt: skip
+
+
+def _extents(constraints: list[Call], scene: Scene, members: tuple[int, ...]) -> frozenset[str]:
+    """Extents of a thing that the program sets, and those that it only keeps.
+
+    Two opposite sides set the extent between them. One that is kept says that the other one changes.
+    """
+    fits = [
+        (c, s) for c in constraints for s in _spoken([c], scene) if set(s[0]) & set(members) and _fits(s[0], members)
+    ]
+    spoken = frozenset().union(*(s[1] for _, s in fits))
+    changed = frozenset().union(*(s[1] for c, s in fits if not _keeps(c)))
+    sides = {name for c in constraints for name in _sides(c, scene, members)}
+    spoken |= {axis for axis in "xy" if {f"min_{axis}", f"max_{axis}"} <= sides}
+    if spoken and spoken <= {"x", "y"} and not changed:
+        spoken |= {"x", "y"}
+    return spoken
+
+
+def _sides(node: Node, scene: Scene, members: tuple[int, ...]) -> set[str]:
+    """Sides of the boxes of `members` that an expression speaks of, in their edited pose."""
+    if not isinstance(node, Call) or node.name == "old":
+        return set()
+    own = {node.name} if any(_region(a, scene) == members for a in node.args) else set()
+    return own.union(*(_sides(a, scene, members) for a in node.args))
 
 
 def _fits(spoken: tuple[int, ...], members: tuple[int, ...]) -> bool:

@@ -28,7 +28,8 @@ class Shapes:
         self.points = np.stack([p for p, _, _ in samples])
         self.ends = np.stack([e for _, e, _ in samples])
         self.start = self.features(np.tile([1.0, 0, 0, 0, 1, 0], (len(self.hulls), 1)))
-        linked = {(r.a, r.b) for r in relations} | {(r.b, r.a) for r in relations}
+        met = [r for r in relations if r.kind != "near"]  # what is only near stands apart
+        linked = {(r.a, r.b) for r in met} | {(r.b, r.a) for r in met}
         self.apart = [
             (a, b)
             for a in range(len(self.hulls))
@@ -69,7 +70,10 @@ class Shapes:
         if r.kind == "inside":
             before, now = self.contained[r.a, r.b], self.share_inside(r.a, r.b, matrices)
             return float(np.clip((before - now - 0.06) / 0.2, 0, 1))
-        wider = self.distance(r.a, r.b, matrices) - self.gaps[r.a, r.b] - 0.004 * self.size
+        gap, now = self.gaps[r.a, r.b], self.distance(r.a, r.b, matrices)
+        if r.kind == "near" and now < gap / 2:  # what stood apart runs into each other
+            return float(np.clip((gap / 2 - now - 0.004 * self.size) / (gap / 2), 0, 1))
+        wider = now - gap - 0.004 * self.size
         return float(np.clip(wider / (0.016 * self.size), 0, 1))
 
     def distance(self, a: int, b: int, matrices: Float[np.ndarray, "n 6"] | None) -> float:

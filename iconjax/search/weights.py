@@ -112,6 +112,7 @@ class Costs:
         carrier: how much dearer it gets where the larger of two things moves and leaves the smaller behind.
         anyway: share of the costs of a "near" relation that counts where both parts are held by something else.
         afloat: how much dearer it is to break a relation without which a thing hangs in the air.
+        beside: share of the cost of breaking a relation between two things that both stand on something else.
         bearing: share of it that counts between what turns on request and a stand that stays.
         moved: another set of parts that moves in a way of its own though nobody asked; plus `moved_area` for its area.
         rooted: factor on that area for what stands on the ground.
@@ -120,6 +121,7 @@ class Costs:
         turned, stretched: added where it turns or changes size; `squashed` where a disc loses its shape.
         hung: added where something turns that hangs from what moves.
         uprooted: something that stood on the ground leaves it; `asked_uprooted` where it was only asked to change size.
+        drift: what is asked to change size, and nothing else, goes sideways by 20 pixels or more.
         extra: an unasked kind of motion of an asked part.
         idle_specifier: a kind of motion that was asked and did not happen.
         amount: for each pixel that asked parts move on average: of equal solutions the smaller change wins.
@@ -146,6 +148,7 @@ class Costs:
     carrier: float = 2.0
     anyway: float = 0.3
     afloat: float = 2.0
+    beside: float = 0.4
     bearing: float = 0.3
     slide_scale: float = 50.0
     stretched_slide: float = 0.4
@@ -161,6 +164,7 @@ class Costs:
     hung: float = 1.5
     uprooted: float = 1.5
     asked_uprooted: float = 4.0
+    drift: float = 0.4
     extra: float = 3.0
     idle_specifier: float = 8.0
     amount: float = 0.003

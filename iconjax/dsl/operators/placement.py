@@ -7,11 +7,22 @@ import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float
 
 from iconjax.dsl.operators import implements, residual_of, safe
-from iconjax.dsl.operators.attributes import center_x, center_y, long_dir, max_x, max_y, min_x, min_y
+from iconjax.dsl.operators.attributes import (
+    center_x,
+    center_y,
+    hori_len,
+    long_dir,
+    max_x,
+    max_y,
+    min_x,
+    min_y,
+    vert_len,
+)
 from iconjax.dsl.operators.outline import gap, sticking_out
 from iconjax.dsl.operators.safe import Scalar
 from iconjax.dsl.region import Region
 
+VISIBLE = 0.03  # share of the least extent: a gap so wide tells that two things are apart
 SHARED = 1.0  # pixels: regions overlap when they reach this deep into each other
 
 
@@ -51,8 +62,9 @@ def overlap(s: Region, t: Region) -> Scalar:
 @residual_of("detach")
 @implements("detach")
 def detach(s: Region, t: Region) -> Scalar:
-    """How deep S and T lie in each other."""
-    return safe.relu(-clearance(s, t))
+    """How far S and T are from a gap that can be seen between them."""
+    extents = [f(r) for r in (s, t) for f in (hori_len, vert_len)]
+    return safe.relu(VISIBLE * jax.lax.stop_gradient(jnp.min(jnp.stack(extents))) - clearance(s, t))
 
 
 @residual_of("on_top")
