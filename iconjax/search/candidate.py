@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Float
 
+from iconjax.relations.detect import INTER_REACH
 from iconjax.relations.types import Relation
 from iconjax.search.facts import Facts
 from iconjax.search.intent import Intent
@@ -89,10 +90,12 @@ class Setting:
 
     def support(self, e: int) -> str:
         """What relation `e` is to gravity: "sole" where a thing would hang in the air without it, "beside" where both
-        things rest on something else, else ""."""
-        pieces = self.pair(self.relations[e])
+        things rest on something else or only stand side by side across a gap, else ""."""
+        contact, pieces = self.relations[e].contact, self.pair(self.relations[e])
         if pieces is None:
             return ""
+        if contact.gap > INTER_REACH * self.size and abs(float(contact.normal[1])) < UPRIGHT:
+            return "beside"
         grounded = {self.pieces[i] for i in np.flatnonzero(self.facts.grounded)}
         for piece in pieces:
             stands = self.bearers.get(piece, {})

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from itertools import product
 
 import networkx as nx
@@ -143,7 +143,7 @@ def initial_states(setting: Setting) -> list[State]:
     base = asked_state(setting)
     sets = hanging(setting, base)
     ways = [options(setting, base, g) for g in sets]
-    states = [base]
+    states = [base, *_torn(setting, base, sets)]
     count = 1
     for w in ways:
         count *= len(w)
@@ -158,6 +158,19 @@ def initial_states(setting: Setting) -> list[State]:
             states.append(_merge(base, [*likely[:k], way, *likely[k + 1 :]], "everything follows but one"))
         states.append(_merge(base, [w[0]], "one set follows"))
     return _unique(states)[:MOST]
+
+
+def _torn(setting: Setting, base: State, sets: Sequence[set[int]]) -> Iterator[State]:
+    """What follows something asked to move and lets go of what stays: held by both, it would not move at all."""
+    moving = {i for i in range(len(base.modes)) if base.mode(i) != "N"}
+    alone = [{i} for g in sets if len(g) > 1 for i in sorted(g) if neighbours(setting.relations, {i}) & moving]
+    for group in (*sets, *alone):
+        pairs = [(e, {r.a, r.b} - group) for e, r in enumerate(setting.relations) if {r.a, r.b} & group]
+        loose = {e: "N" for e, others in pairs if others and not others & moving}
+        if loose and any(others & moving for _, others in pairs):
+            leader = max(group, key=lambda i: setting.facts.area[i])
+            follows = base.with_modes(group_modes(group, leader, "T"), "follows and lets go of what stays")
+            yield follows.with_relations(loose, follows.origin)
 
 
 def _merge(base: State, changes: Sequence[dict[int, Mode]], origin: str) -> State:
