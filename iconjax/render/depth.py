@@ -57,9 +57,7 @@ def depth_order(scene: Scene) -> DepthOrder:
     if scene.layers:
         return DepthOrder(_painted(scene))
     reach = max(1, round(TOUCH * scene.size / 512))
-    label = np.full(scene.image.shape[:2], -1, np.int32)
-    for i, segment in enumerate(scene.segments):
-        label[segment.mask] = i
+    label = scene.position_map()
     decided: dict[tuple[int, int], float] = {}
     open_pairs: list[tuple[int, int]] = []
     for i, j, window in _touching(label, len(scene.segments), reach):
@@ -76,7 +74,7 @@ def depth_order(scene: Scene) -> DepthOrder:
 
 def _painted(scene: Scene) -> tuple[int, ...]:
     """Positions of the segments by the place of their largest layer, back to front."""
-    place = {i: (0, -1) for i in range(len(scene.segments))}  # of each segment: size, rank
+    place = dict.fromkeys(range(len(scene.segments)), (0, -1))  # of each segment: size, rank
     for rank, layer in enumerate(scene.layers):
         size = int(np.count_nonzero(layer.data[..., 3]))
         if layer.segment is not None and size >= place[layer.segment][0]:

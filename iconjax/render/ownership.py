@@ -56,10 +56,7 @@ def grown(box: Box, pad: int, shape: tuple[int, ...]) -> Box:
 
 def find_ownership(scene: Scene) -> Ownership:
     """Give every pixel its owner; thin unlabelled colour beside a segment is that segment's edge."""
-    shape = scene.image.shape[:2]
-    label = np.full(shape, -1, np.int32)
-    for i, segment in enumerate(scene.segments):
-        label[segment.mask] = i
+    label = scene.position_map()
     empty = label < 0
     stray = empty & (scene.image != scene.background).any(axis=2)
     # Thick unlabelled shapes are drawings of their own and stay where they are.

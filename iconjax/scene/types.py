@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from jaxtyping import Bool, Float, Integer, UInt8
+from jaxtyping import Bool, Float, Int32, Integer, UInt8
 
 
 @dataclass(frozen=True)
@@ -108,6 +108,13 @@ class Scene:
     def objects(self) -> tuple[str, ...]:
         """Object names in order of first appearance."""
         return tuple(dict.fromkeys(s.object for s in self.segments))
+
+    def position_map(self) -> Int32[np.ndarray, "H W"]:
+        """At each pixel the position of the segment that shows there, -1 where none does."""
+        out = np.full(self.image.shape[:2], -1, dtype=np.int32)
+        for i, segment in enumerate(self.segments):
+            out[segment.mask] = i
+        return out
 
     def members(self, name: str) -> tuple[int, ...]:
         """Positions of the segments a name speaks of: one segment, or all parts of an object; () if none."""
