@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,12 +17,14 @@ CASE_FILES = (
     "case.json",
     "image.png",
     "segmentation.png",
+    "labels.json",
+    "sheet.png",
     "program.txt",
     "checks.json",
     "ground_truth.png",
     "ground_truth.json",
 )
-"""Files of a case folder, which no output replaces."""
+"""Files of a case folder or of one made by `iconjax segment`, which no output replaces."""
 
 
 def is_vector(picture: str | os.PathLike[str]) -> bool:
@@ -38,7 +41,7 @@ def default_output(picture: str) -> Path:
 
 
 def check_picture(picture: str, seg: str | None, labels: str | None) -> None:
-    """A picture with its segments, or a case folder without any.
+    """A picture with its segments, or a folder that has them in itself.
 
     Raises:
         InputError: it is missing, or the options do not fit it.
@@ -47,7 +50,9 @@ def check_picture(picture: str, seg: str | None, labels: str | None) -> None:
     if not path.exists():
         raise InputError(f"there is no file or folder {picture}")
     if path.is_dir():
-        if seg is not None or labels is not None:
+        from iconjax.scene.segment.folder import is_parts
+
+        if (seg is not None or labels is not None) and not is_parts(picture):
             raise InputError(
                 f"{picture} is a case folder, which has its own segmentation: leave out --seg and --labels"
             )
@@ -55,7 +60,9 @@ def check_picture(picture: str, seg: str | None, labels: str | None) -> None:
         if seg is not None:
             raise InputError(f"{picture} is an SVG, which has its segments in itself: leave out --seg")
     elif seg is None:
-        raise InputError(f"{picture} is an image, so it needs --seg (a label map) and --labels; or give a case folder")
+        raise InputError(
+            f"{picture} is an image, so it needs --seg (a label map) and --labels; or run iconjax segment {picture}"
+        )
 
 
 def check_choices(
@@ -86,17 +93,25 @@ def check_choices(
     return choose_translator(llm_options(translator, **llm))
 
 
-def check_outputs(target: Path, json_file: str | None, trace: str | None, inputs: tuple[str | None, ...]) -> None:
+def numbered(target: Path, count: int) -> list[Path]:
+    """Where the pictures of `count` readings go: `target`, then NAME-2, NAME-3 and so on beside it."""
+    return [target if k == 1 else target.with_stem(f"{target.stem}-{k}") for k in range(1, count + 1)]
+
+
+def check_outputs(
+    pictures: Sequence[Path], json_file: str | None, trace: str | None, inputs: tuple[str | None, ...]
+) -> None:
     """Output files that cannot be written, that collide, or that would overwrite an input, the picture being first.
 
     Raises:
         InputError: the first that is wrong.
     """
+    target = pictures[0]
     if not is_vector(target):
         image_format(target)
     elif not is_vector(inputs[0] or ""):
         raise InputError(f"cannot write {target}: only an edited SVG can be saved as SVG, name it .png")
-    targets = [p for p in (target, json_file, trace) if p is not None and str(p) != "-"]
+    targets = [p for p in (*pictures, json_file, trace) if p is not None and str(p) != "-"]
     places = [Path(p).resolve() for p in targets]
     taken = {Path(p).resolve() for p in inputs if p is not None}
     taken |= {place / name for place in taken if place.is_dir() for name in CASE_FILES}

@@ -10,8 +10,9 @@ from typing import Any
 import click
 
 from iconjax import __version__
-from iconjax.checks import check_choices, check_outputs, check_picture, default_output
+from iconjax.checks import check_choices, check_outputs, check_picture, default_output, numbered
 from iconjax.cli_eval import evaluate
+from iconjax.cli_segment import label, segment
 from iconjax.console import PoliteGroup, progress, say
 
 Command = Callable[..., Any]
@@ -70,7 +71,10 @@ def model_options(command: Command) -> Command:
     help="Constraints in the DSL, one call a line ('-' is stdin); skips translation.",
 )
 @click.option(
-    "-o", "--output", metavar="FILE", help="Edited picture; by default NAME-edited.png in the current folder, .svg for an SVG."
+    "-o",
+    "--output",
+    metavar="FILE",
+    help="Edited picture; by default NAME-edited.png in the current folder, .svg for an SVG.",
 )
 @click.option(
     "--json",
@@ -95,12 +99,13 @@ def edit(
 ) -> int:  # fmt: skip
     """Edit CASE_OR_IMAGE as REQUEST says.
 
-    CASE_OR_IMAGE is a case folder, an SVG (--labels names its segments, where the file does not), or an image
-    with --seg and --labels. Without REQUEST, that of the case folder is used.
+    CASE_OR_IMAGE is a case folder, an SVG (--labels names its segments, where the file does not), a folder made
+    by `iconjax segment`, or an image with --seg and --labels. Without REQUEST, that of the case folder is used.
     """
     reader = check_choices(translator, program, interpretations, model=model, record=record, replay=replay)
     target = Path(output) if output is not None else default_output(picture)
-    check_outputs(target, json_file, trace, inputs=(picture, seg, labels, program))
+    pictures = numbered(target, interpretations)
+    check_outputs(pictures, json_file, trace, inputs=(picture, seg, labels, program))
     check_picture(picture, seg, labels)
     text = None if program is None else _program(program)
     from iconjax.edit.config import EditConfig
@@ -122,8 +127,8 @@ def edit(
             interpretations=interpretations,
             progress=stage,
         )
-    for number, one in enumerate(result.interpretations or (result,), start=1):
-        one.save(target if number == 1 else target.with_stem(f"{target.stem}-{number}"))
+    for path, one in zip(pictures, result.interpretations or (result,), strict=False):
+        one.save(path)
     for number, one in enumerate(result.interpretations, start=1):
         say(f"reading {number} of {len(result.interpretations)}: {one.gloss}")
     if json_file == "-":
@@ -205,6 +210,8 @@ def dsl(name: str | None) -> None:
 
 
 main.add_command(evaluate)
+main.add_command(segment)
+main.add_command(label)
 
 
 def _program(path: str) -> str:

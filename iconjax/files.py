@@ -6,8 +6,13 @@ import os
 import tempfile
 from contextlib import suppress
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from iconjax.errors import InputError
+
+if TYPE_CHECKING:
+    import numpy as np
+    from jaxtyping import UInt
 
 IMAGE_SUFFIXES = {
     ".png": "PNG",
@@ -71,6 +76,19 @@ def image_format(path: str | os.PathLike[str]) -> str:
     if suffix not in IMAGE_SUFFIXES:
         raise InputError(f"cannot write {path}: the name of an image ends in one of {', '.join(IMAGE_SUFFIXES)}")
     return IMAGE_SUFFIXES[suffix]
+
+
+def encode_image(pixels: UInt[np.ndarray, "H W *c"], kind: str = "PNG") -> bytes:
+    """A picture or a label map in the file format that Pillow calls `kind`."""
+    import io
+
+    import numpy as np
+    from PIL import Image
+
+    stream = io.BytesIO()
+    options: dict[str, Any] = {"quality": 95} if kind in ("JPEG", "WEBP") else {}
+    Image.fromarray(np.ascontiguousarray(pixels)).save(stream, kind, **options)
+    return stream.getvalue()
 
 
 def describe(error: OSError) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import shutil
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from edit_support import LABELS, PROGRAM, REQUEST, small_picture, use_fake_searc
 from PIL import Image
 
 from iconjax import EditConfig, Segmentation, edit
+from iconjax.errors import InputError
 from iconjax.language.base import Translation
 
 
@@ -25,6 +27,10 @@ def ways_in(folder):
     image, mask = small_picture()
     paths = case / "image.png", case / "segmentation.png"
     (folder / "labels.json").write_text(json.dumps({str(k): v for k, v in LABELS.items()}))
+    parts = folder / "parts"
+    parts.mkdir()
+    for path in (*paths, folder / "labels.json"):
+        shutil.copy(path, parts)
     return {
         "arrays": ((image, mask), {"labels": LABELS}),
         "pil": ((Image.fromarray(image), Image.fromarray(mask)), {"labels": LABELS}),
@@ -34,6 +40,9 @@ def ways_in(folder):
         "mixed": ((str(paths[0]), mask.astype(np.int64)), {"labels": LABELS}),
         "case": ((case,), {}),
         "case as text": ((str(case),), {}),
+        "parts": ((parts,), {}),
+        "parts as text": ((str(parts),), {}),
+        "parts with other labels": ((parts,), {"labels": LABELS}),
     }
 
 
@@ -101,6 +110,13 @@ def test_own_translator_is_used_and_named(tmp_path):
     assert result.understood == ("heard 3 segments",)
     assert result.request == REQUEST
     assert "heard 3 segments" in result.explain()
+
+
+def test_a_folder_made_by_segment_has_no_request_of_its_own(tmp_path):
+    (parts,), _ = ways_in(tmp_path)["parts"]
+    assert edit(parts, request=REQUEST, translator=Echo()).request == REQUEST
+    with pytest.raises(InputError, match="the request is empty"):
+        edit(parts)
 
 
 def test_request_given_wins_over_the_case(tmp_path):

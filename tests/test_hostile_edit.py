@@ -72,7 +72,7 @@ BAD_COMMANDS = {
         "cannot write none/t.html",
     ),
     "interpretations 0": ("edit lamp --program p.txt --interpretations 0", "at least 1"),
-    "interpretations 2": ("edit lamp --program p.txt --interpretations 2", "only 1 is supported"),
+    "interpretations 2": ("edit lamp --program p.txt --interpretations 2", "one interpretation"),
     "interpretations many": ("edit lamp --program p.txt --interpretations many", "not a valid integer"),
     "unknown option": ("edit lamp --fast", "--fast"),
     "no picture": ("edit", "CASE_OR_IMAGE"),

@@ -35,7 +35,8 @@ def edit(
 
     Args:
         image: the picture, as an (H, W, 3) uint8 array, a PIL image or a path; or the path of a case
-            folder, which brings its own segmentation, labels and request; or the path of an SVG (or what
+            folder, which brings its own segmentation, labels and request; or of a folder made by `iconjax
+            segment`, which brings all but the request; or the path of an SVG (or what
             `iconjax.scene.svg.open_svg` made of one), whose elements are the segments.
         seg: which pixel belongs to what: a `Segmentation`, or a label map (array, PIL image or path) in which
             0 is background.

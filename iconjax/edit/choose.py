@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from difflib import get_close_matches
 from importlib import import_module
 from importlib.util import find_spec
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from iconjax.errors import ConfigError
 from iconjax.language.base import Translator
 from iconjax.language.llm.secrets import VARIABLES, configured
 from iconjax.language.llm.settings import LlmSettings
 from iconjax.scene.types import Scene
+
+if TYPE_CHECKING:
+    from iconjax.language.llm.exchange import Client
+    from iconjax.language.llm.translator import AnthropicTranslator
 
 CREDENTIALS = VARIABLES
 """Environment variables that configure Anthropic; only whether one is set is looked at here."""
@@ -95,29 +100,48 @@ def llm_options(
     return make_translator(str(name), LlmSettings.from_environment(**options))
 
 
-def make_translator(name: str, settings: LlmSettings) -> Translator:
+def make_translator(
+    name: str, settings: LlmSettings, wrap: Callable[[Client], Client] | None = None
+) -> AnthropicTranslator:
     """The LLM translator "anthropic", or "llm-replay", which answers from recordings.
+
+    Args:
+        name: which.
+        settings: of the model, or of the recordings.
+        wrap: puts something between the translator and who answers, for example to count tokens.
 
     Raises:
         ConfigError: no credentials, no SDK, or no folder of recordings.
     """
-    from iconjax.language.llm.record import Recorder, Replayer
+    from iconjax.language.llm.record import Replayer
     from iconjax.language.llm.translator import AnthropicTranslator
 
-    client: Any
+    client = make_client(name, settings)
+    if name == "llm-replay":  # advice that nobody recorded is not asked for
+        settings = replace(settings, crucial=settings.crucial and Replayer(settings.replay).holds("crucial"))
+    return AnthropicTranslator(wrap(client) if wrap else client, settings, scene_connections, name)
+
+
+def make_client(name: str, settings: LlmSettings) -> Client:
+    """Who answers the translator `name`: the model, or recordings; recorded where the settings say so.
+
+    Raises:
+        ConfigError: as `make_translator`.
+    """
+    from iconjax.language.llm.record import Recorder, Replayer
+
+    client: Client
     if name == "llm-replay":
         if not settings.replay:
-            raise ConfigError("translator 'llm-replay' needs a folder of recordings: give --replay or ICONJAX_REPLAY")
+            raise ConfigError("'llm-replay' needs a folder of recordings: give --replay or ICONJAX_REPLAY")
         client = Replayer(settings.replay)
     else:
         if not has_credentials() and not settings.base_url:
-            raise ConfigError(f"translator 'anthropic' needs credentials: set {' or '.join(CREDENTIALS)}")
+            raise ConfigError(f"'anthropic' needs credentials: set {' or '.join(CREDENTIALS)}")
         from iconjax.language.llm.client import AnthropicClient
 
         client = AnthropicClient(settings)
-    if settings.record:
-        client = Recorder(client, settings.record)
-    return AnthropicTranslator(client, settings, scene_connections, name)
+    return Recorder(client, settings.record) if settings.record else client
 
 
 def scene_connections(scene: Scene) -> list[tuple[str, str, str]]:

@@ -1,4 +1,4 @@
-"""What the caller hands over, made into a scene: pictures, label maps, labels, case folders, programs."""
+"""What the caller hands over, made into a scene: pictures, label maps, labels, folders, programs."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from iconjax.errors import InputError
 from iconjax.files import describe
 from iconjax.scene.build import build_scene
 from iconjax.scene.load import load_case
+from iconjax.scene.segment.folder import parts_files
 from iconjax.scene.types import Scene
 
 if TYPE_CHECKING:
@@ -45,6 +46,8 @@ def open_inputs(image: Any, seg: Any = None, request: str | None = None, labels:
     """
     if request is not None and not isinstance(request, str):
         raise InputError(f"the request has to be text, not {type(request).__name__}")
+    if is_folder(image):
+        image, seg, labels = parts_files(image, seg, labels)
     if is_folder(image):
         if seg is not None or labels is not None:
             raise InputError(f"{image} is a case folder, which has its own segmentation: leave out seg and labels")

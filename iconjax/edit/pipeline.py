@@ -16,8 +16,10 @@ from iconjax.edit.choose import choose_translator
 from iconjax.edit.config import EditConfig
 from iconjax.edit.inputs import Inputs, open_inputs, program_text
 from iconjax.edit.result import EditResult
-from iconjax.errors import ConfigError, InputError
-from iconjax.language.base import Translation
+from iconjax.errors import ConfigError, InputError, TranslationError
+from iconjax.language.base import ManyReader, RelationJudge, Translation
+from iconjax.language.llm.record import MissingRecordingError
+from iconjax.relations.detect import detect_relations
 from iconjax.render.depth import DepthOrder, depth_order
 from iconjax.render.raster import render
 from iconjax.scene.types import Scene
@@ -51,6 +53,8 @@ def run_edit(
     if program is None:
         progress("reading the request")
         chosen = choose_translator(translator)
+        if interpretations > 1 and isinstance(chosen, ManyReader):
+            chosen = chosen.with_readings(interpretations)
         translation = read_request(inputs.request, inputs.scene, chosen)
     else:
         chosen = None
@@ -58,17 +62,19 @@ def run_edit(
     translated = perf_counter() - start
     progress("searching")
     author = translation.translator if program is None else None
-    advice = Advice()
+    advice, told = ask_advice(chosen, inputs.scene)
     first = attempt(inputs.scene, main_reading(translation), author, settings, advice)
     first, translation = reconsider(inputs.scene, first, translation, chosen, settings, advice)
     further = translation.readings[1:interpretations]
     others = [attempt(inputs.scene, reading, author, settings, advice) for reading in further]
     progress("drawing")
-    results = [_draw(inputs, translation, one, translated) for one in distinct(inputs.scene, [first, *others])]
+    results = [_draw(inputs, translation, one, translated, told) for one in distinct(inputs.scene, [first, *others])]
     return replace(results[0], interpretations=tuple(results) if interpretations > 1 else ())
 
 
-def _draw(inputs: Inputs, translation: Translation, done: Attempt, translated: float) -> EditResult:
+def _draw(
+    inputs: Inputs, translation: Translation, done: Attempt, translated: float, told: tuple[str, ...]
+) -> EditResult:
     outcome, scene = done.outcome, inputs.scene
     start = perf_counter()
     depth = depth_order(scene)
@@ -94,7 +100,7 @@ def _draw(inputs: Inputs, translation: Translation, done: Attempt, translated: f
         request=inputs.request,
         gloss=done.reading.gloss,
         understood=translation.understood,
-        notes=(*(inputs.vector.notes if inputs.vector else ()), *outcome.notes, *_depth_notes(scene, depth)),
+        notes=(*(inputs.vector.notes if inputs.vector else ()), *told, *outcome.notes, *_depth_notes(scene, depth)),
         trace=outcome.trace,
         version=__version__,
         scene=scene,
@@ -114,6 +120,20 @@ def read_request(request: str, scene: Scene, translator: Any = None) -> Translat
     if not request.strip():
         raise InputError("the request is empty: say what to change, or give a program")
     return chosen.translate(request, scene)
+
+
+def ask_advice(translator: object, scene: Scene) -> tuple[Advice, tuple[str, ...]]:
+    """What a translator that can judge relations says of the scene's, and what the user should know about it."""
+    if not isinstance(translator, RelationJudge):
+        return Advice(), ()
+    names = scene.names
+    pairs = [(names[r.a], names[r.b]) for r in detect_relations(scene) if r.scope != "inter"]
+    try:
+        return Advice(crucial=translator.crucial(scene, pairs)), ()
+    except MissingRecordingError:
+        raise
+    except TranslationError as error:  # advice is never needed: the stated rule does as well
+        return Advice(), (f"which connections hold an object together was decided by rule: {error}",)
 
 
 def check_interpretations(count: int, programmed: bool) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import io
 import json
 import math
 import os
@@ -14,12 +13,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from jaxtyping import Float, UInt8
-from PIL import Image
 
 from iconjax.checks import is_vector
 from iconjax.edit.explain import explain
 from iconjax.errors import InputError
-from iconjax.files import image_format, write_bytes, write_text
+from iconjax.files import encode_image, image_format, write_bytes, write_text
 from iconjax.scene.types import Scene
 from iconjax.search.types import ConstraintReport, RelationReport, TraceEntry
 
@@ -92,11 +90,11 @@ class EditResult:
 
             moves = np.array([self.transforms[s.id] for s in self.scene.segments])
             return save_svg(self.vector, moves, path)
-        write_bytes(path, encode(self.image, image_format(path)))
+        write_bytes(path, encode_image(self.image, image_format(path)))
 
     def to_dict(self) -> dict[str, Any]:
-        """The result as plain data, with the keys of the result format; "rounds" where the translator had to think again
-        and "interpretations" where several were asked for."""
+        """The result as plain data, with the keys of the result format; also "rounds" where the translator had to think
+        again, and "interpretations" where several were asked for."""
         further: dict[str, Any] = {"rounds": self.rounds} if self.rounds else {}
         if self.interpretations:
             further["interpretations"] = [{"gloss": r.gloss, **r.to_dict()} for r in self.interpretations]
@@ -159,7 +157,7 @@ class EditResult:
         return tuple(c for c in self.constraints if not c.satisfied)
 
     def _repr_png_(self) -> bytes:
-        return encode(self.image, "PNG")
+        return encode_image(self.image)
 
     def _repr_html_(self) -> str:
         style = "max-width:45%;max-height:360px;margin-right:12px;border:1px solid #ddd;background:#fff"
@@ -170,17 +168,9 @@ class EditResult:
         return f"<div>{pictures}<pre>{escape(self.explain())}</pre></div>"
 
 
-def encode(image: UInt8[np.ndarray, "H W 3"], kind: str) -> bytes:
-    """`image` in the file format that Pillow calls `kind`."""
-    stream = io.BytesIO()
-    options = {"quality": 95} if kind in ("JPEG", "WEBP") else {}
-    Image.fromarray(np.ascontiguousarray(image)).save(stream, kind, **options)
-    return stream.getvalue()
-
-
 def data_uri(image: UInt8[np.ndarray, "H W 3"]) -> str:
     """`image` as a PNG that an HTML page can carry inside itself."""
-    return "data:image/png;base64," + base64.b64encode(encode(image, "PNG")).decode("ascii")
+    return "data:image/png;base64," + base64.b64encode(encode_image(image)).decode("ascii")
 
 
 def finite(value: float) -> float | None:

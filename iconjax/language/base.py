@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Protocol, runtime_checkable
 
@@ -128,6 +128,15 @@ class ManyReader(Protocol):
 
     def with_readings(self, count: int) -> Translator:
         """A translator like this one that gives up to `count` different readings."""
+        ...
+
+
+@runtime_checkable
+class RelationJudge(Protocol):
+    """A translator that can say which connections hold an object together (paper, relation types)."""
+
+    def crucial(self, scene: Scene, pairs: Sequence[tuple[str, str]]) -> frozenset[frozenset[str]] | None:
+        """The crucial ones of some pairs of segment names; None leaves it to the stated rule."""
         ...
 
 
