@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -195,11 +196,14 @@ def test_processes_end_when_the_one_that_started_them_is_killed(tmp_path: Path) 
     child = start_slow_run(tmp_path / "bench", out, jobs=2)
     wait_until(lambda: child.poll() is not None or len(list(out.glob("slow/*.pid"))) >= 2)
     child.kill()
-    child.communicate()
+    child.wait()
     workers = {int(path.read_text()) for path in out.glob("slow/*.pid")}
     assert workers and child.pid not in workers
     wait_until(lambda: not any(map(alive, workers)), 10)
-    assert not any(map(alive, workers))
+    left = [pid for pid in workers if alive(pid)]
+    for pid in left:
+        os.kill(pid, signal.SIGKILL)
+    assert not left
 
 
 def test_bad_arguments_are_errors_before_any_work(bench: Path, tmp_path: Path) -> None:

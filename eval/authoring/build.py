@@ -1,7 +1,7 @@
-"""Rebuild the cases of `specs/` from the icon packages, and check them.
+"""Rebuild the cases of `specs/`, or of another folder of specs, from the icon packages, and check them.
 
     npm install @iconify-json/fluent-emoji-flat @iconify-json/maki @iconify-json/temaki
-    python eval/authoring/build.py node_modules/@iconify-json OUT [ID ...] [--sheet FOLDER]
+    python eval/authoring/build.py node_modules/@iconify-json OUT [ID ...] [--specs FOLDER] [--sheet FOLDER]
 
 A spec names the icon, the pieces of each part (see `vector.py`), the request, the reference program, the
 checks, one solution as explicit motions in pixels, and wrong edits that the checks have to reject.
@@ -182,10 +182,14 @@ def main() -> int:
     parser.add_argument("packages", type=Path)
     parser.add_argument("out", type=Path)
     parser.add_argument("ids", nargs="*")
+    parser.add_argument("--specs", type=Path, default=HERE / "specs", help="folder of specs (default: %(default)s)")
     parser.add_argument("--sheet", type=Path)
     args = parser.parse_args()
+    paths = sorted(args.specs.glob("*.json"))
+    if not paths:
+        parser.error(f"there are no specs in {args.specs}")
     bad = 0
-    for path in sorted((HERE / "specs").glob("*.json")):
+    for path in paths:
         if args.ids and path.stem not in args.ids:
             continue
         spec = json.loads(path.read_text(encoding="utf-8"))

@@ -20,12 +20,12 @@ from iconjax.evaluation.affine import Matrix
 
 def outer_outline(mask: Bool[np.ndarray, "H W"]) -> MultiPolygon:
     """Outer outline of a region in pixels (x, y), one polygon for each component; empty for an empty mask."""
-    components = measure.label(mask, connectivity=2)  # type: ignore[no-untyped-call]
+    components = measure.label(mask, connectivity=2)
     pieces = []
-    for region in measure.regionprops(components):  # type: ignore[no-untyped-call]
+    for region in measure.regionprops(components):
         top, left = region.bbox[:2]
         padded = np.pad(region.image_filled.astype(np.float64), 1)
-        contours = measure.find_contours(padded, 0.5, fully_connected="high")  # type: ignore[no-untyped-call]
+        contours = measure.find_contours(padded, 0.5, fully_connected="high")
         for contour in contours:
             # The centre of pixel (i, j) of the crop is at (j + 0.5, i + 0.5); the padding is one pixel wide.
             points = contour[:, ::-1] + (left - 0.5, top - 0.5)

@@ -133,7 +133,7 @@ def score(case: EvalCase, method: str, edited: Edited, seconds: float = 0.0, fin
 def failure(case: EvalCase | str, method: str, error: BaseException, seconds: float = 0.0) -> CaseRecord:
     """Record of a case that a method could not edit, or (given by name) of one that could not be read."""
     text = str(error) if isinstance(error, IconjaxError) else f"{type(error).__name__}: {error}"
-    text = " ".join(text.split())
+    text = " ".join(text.split()).removesuffix(":")
     if isinstance(case, str):
         return CaseRecord(case, method, "", None, None, False, (), (), seconds, {}, error=text)
     return replace(score(case, method, Edited({}, case.image), seconds), satisfied=False, error=text)

@@ -8,8 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from iconjax.language.inclusions import with_included
 from iconjax.language.lexicon import Lexicon
+from iconjax.language.manners import plain
 from iconjax.language.names import Names
+from iconjax.language.skipping import without_stories
 
 WEIGHTY = frozenset(
     {"number", "fraction", "multiple", "unit", "orient", "upside_down", "without", "instead", "squarely"}
@@ -21,12 +24,13 @@ MOST_SUBJECT = 4
 
 def without_asides(words: Sequence[str], lexicon: Lexicon, names: Names) -> list[str]:
     """The request without its asides; what was left out is noted in `names.notes`."""
+    words = with_included(plain(words, lexicon, names), lexicon, names)
     out: list[str] = []
     i = _heading(words, lexicon, names)
     while i < len(words):
         end = _aside(words, i, lexicon) if i else None
         end = end or (_relative(words, i, lexicon, names) if i else None)
-        if end is not None and not _weighty(words[i:end], lexicon):
+        if end is not None and not _weighty(words[i:end], lexicon, names):
             names.notes.append(f'"{" ".join(words[i:end])}" only explains or describes')
             while out and out[-1] == ",":
                 out.pop()
@@ -34,7 +38,7 @@ def without_asides(words: Sequence[str], lexicon: Lexicon, names: Names) -> list
             continue
         out.append(words[i])
         i += 1
-    return out
+    return without_stories(out, lexicon, names)
 
 
 def _heading(words: Sequence[str], lexicon: Lexicon, names: Names) -> int:
@@ -88,9 +92,11 @@ def _relative(words: Sequence[str], i: int, lexicon: Lexicon, names: Names) -> i
     return end if last else None
 
 
-def _weighty(words: Sequence[str], lexicon: Lexicon) -> bool:
+def _weighty(words: Sequence[str], lexicon: Lexicon, names: Names) -> bool:
     """Whether words say an amount, a pose or what should stay."""
-    for word in words:
+    for i, word in enumerate(words):
+        if i and words[i - 1] in ("the", "its", "their") and names.hear(word) is not None:
+            continue
         if word.isdigit() or word in ("not", "never", "no"):
             return True
         if word not in ("a", "an", "one") and lexicon.knows(word, WEIGHTY):

@@ -55,7 +55,7 @@ class Collector:
         values: constraint lines, in order.
         axis_keeps: (name, axis) to keep where no constraint speaks of them.
         fixed: names told to stay.
-        anchors: what things are placed relative to -> the thing; it stays unless something else moves it.
+        anchors: what things are placed relative to -> those things; it stays unless something else moves it.
         themes: everything the request changes.
         turned: what of it turns.
     """
@@ -66,7 +66,7 @@ class Collector:
         self.values: dict[str, None] = {}
         self.axis_keeps: dict[tuple[str, int], None] = {}
         self.fixed: dict[str, None] = {}
-        self.anchors: dict[str, str] = {}
+        self.anchors: dict[str, list[str]] = {}
         self.themes: dict[str, None] = {}
         self.turned: set[str] = set()
 
@@ -86,14 +86,18 @@ class Collector:
             if not any(k == kind and self.shapes.part_of(name, n) for k, n in self.motions):
                 self.motions[(kind, name)] = None
 
+    def anchor(self, other: str, name: str) -> None:
+        """Note that a thing is placed relative to another."""
+        self.anchors.setdefault(other, []).append(name)
+
     def _motion_lines(self) -> list[str]:
         return [call(kind, quoted(name)) for kind, name in self.motions]
 
     def _stay_lines(self) -> list[str]:
         lines = [call("stay", quoted(n)) for n in self.fixed]
-        for anchor, mover in self.anchors.items():
+        for anchor, movers in self.anchors.items():
             moving = {self.object_of(n) for n in self.themes if n != anchor}
-            own = {self.object_of(mover), self.object_of(anchor)}
+            own = {self.object_of(n) for n in (*movers, anchor)}
             touched = any(self.within(t, anchor) or self.within(anchor, t) for t in self.themes)
             if moving <= own and not touched and anchor not in self.fixed:
                 lines.append(call("stay", quoted(anchor)))

@@ -24,6 +24,7 @@ class Context:
         last: the last phrase with a noun in the place of a theme, for "the right one".
         verbs: verbs of the last clause that had some, for clauses without.
         direction: direction that an "until" clause inherits.
+        complained: extent of which the clause before said that it is wrong.
     """
 
     names: Names
@@ -32,6 +33,7 @@ class Context:
     last: Phrase | None = None
     verbs: list[Entry] = field(default_factory=list)
     direction: str = ""
+    complained: str = ""
     used: set[str] = field(default_factory=set)
 
     def remember(self, theme: Sequence[str], references: Sequence[tuple[str, ...]]) -> None:
@@ -62,7 +64,12 @@ class Context:
 
     def reference(self, phrases: Sequence[Phrase], theme: Sequence[str]) -> Reference:
         """What the phrases after a relation mean."""
-        return self._all(phrases, theme, "")
+        return self.led(self._all(phrases, theme, ""))
+
+    def led(self, reference: Reference) -> Reference:
+        """Without the pieces of a thing that its main piece stands for."""
+        kept = tuple(n for n in reference.names if self.names.trailing.get(n) not in reference.names)
+        return replace(reference, names=kept)
 
     def _all(self, phrases: Sequence[Phrase], theme: Sequence[str], relation: str) -> Reference:
         if not phrases:
@@ -115,9 +122,30 @@ class Context:
                 return Reference(self._choose(phrase, self._named(phrase, owners), theme, relation))
             except TranslationError as error:
                 failure = failure or error
+        near = self._near(phrase, theme) if failure is not None and theme else ()
+        if near:
+            return Reference(near)
+        side = self._as_side(phrase)
+        if failure is not None and side and theme:
+            return Reference(tuple(theme), side)
         if failure is None:  # "make its arms longer": nothing was spoken of, but only one thing may have arms
             return Reference(self._choose(phrase, self._named(phrase, ()), theme, relation))
         raise failure
+
+    def _near(self, phrase: Phrase, theme: Sequence[str]) -> tuple[str, ...]:
+        """The one thing of a name that touches the theme: a blossom's "its stalk"."""
+        try:
+            found = self._named(phrase, ())
+        except TranslationError:
+            return ()
+        shapes = self.names.shapes
+        return found if len(found) == 1 and all(shapes.lies(found[0], "touch", n) for n in theme) else ()
+
+    def _as_side(self, phrase: Phrase) -> str:
+        """The side that a noun may also mean: "its foot" of a thing that has no such part."""
+        alone = len(phrase.nouns) == 1 and not phrase.modifiers and not phrase.ordinal
+        got = self.names.lexicon.match(list(phrase.nouns), 0, "side") if alone else None
+        return got[0].value if got is not None else ""
 
     def _named(self, phrase: Phrase, owners: Sequence[str]) -> tuple[str, ...]:
         if phrase.indefinite:
@@ -131,10 +159,26 @@ class Context:
         try:
             return self.names.resolve(phrase, owners)
         except TranslationError:
+            if not owners and (found := self._of_theme(phrase)):
+                return found
             objects = tuple(dict.fromkeys(s.object for o in owners for s in self.names.shapes.segments(o)))
             if not owners or set(objects) == set(owners):
                 raise
             return self.names.resolve(phrase, objects)
+
+    def _of_theme(self, phrase: Phrase) -> tuple[str, ...]:
+        """What a phrase that could be several things means among the parts of what was spoken of last: "the wax"."""
+        for theme in self.themes[:2]:
+            objects = tuple(dict.fromkeys(s.object for n in theme for s in self.names.shapes.segments(n)))
+            wider = replace(phrase, plural=len(theme) > 1 or phrase.plural)
+            for owners in (theme, objects):
+                try:
+                    found = self.names.resolve(wider, owners)
+                except TranslationError:
+                    continue
+                if len(found) <= max(len(theme), 1) or phrase.plural:
+                    return found
+        return ()
 
     def _choose(self, phrase: Phrase, names: tuple[str, ...], theme: Sequence[str], relation: str) -> tuple[str, ...]:
         if phrase.indefinite is None:

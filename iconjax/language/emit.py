@@ -8,13 +8,15 @@ from iconjax.errors import TranslationError
 from iconjax.language.clauses import Clause
 from iconjax.language.collector import Collector
 from iconjax.language.emit_keeps import keep, stay
-from iconjax.language.emit_pairs import align, gap, swap, together
+from iconjax.language.emit_pairs import align, gap, space, swap, together
 from iconjax.language.emit_places import move, place
 from iconjax.language.emit_sizes import resize, scale
 from iconjax.language.emit_turns import hinge, orient, rotate
 from iconjax.language.shapes import Shapes
 
-CHANGING = frozenset({"scale", "rotate", "move", "place", "orient", "turn", "go", "resize", "swap", "gap", "align"})
+CHANGING = frozenset(
+    {"scale", "rotate", "move", "place", "orient", "turn", "go", "resize", "swap", "gap", "align", "space"}
+)
 """Actions whose theme does not stay as it is."""
 
 
@@ -43,6 +45,7 @@ ACTIONS: Mapping[str, Callable[[Collector, Clause], None]] = {
     "place": place,
     "swap": swap,
     "gap": gap,
+    "space": space,
     "align": align,
     "together": together,
     "stay": stay,

@@ -34,6 +34,12 @@ def keep(out: Collector, clause: Clause) -> None:
             out.equal(call("rotation", quoted(name)), 0)
         elif clause.dimension == "place":
             out.add(keeps("center_x", name), keeps("center_y", name))
+        elif clause.dimension == "level":
+            if not any(out.within(t, name) or out.within(name, t) for t in out.themes):
+                out.fixed[name] = None
+                continue
+            resized = any(k == "scale" and (out.within(name, n) or out.within(n, name)) for k, n in out.motions)
+            out.add(keeps("max_y" if resized else "center_y", name))
         elif clause.dimension in EDGES:
             out.add(*(keeps(e, name) for e in EDGES[clause.dimension]))
         else:
@@ -46,6 +52,12 @@ def keep_relation(out: Collector, clause: Clause, name: str) -> None:
         within = kind == "inside" and not out.shapes.lies(name, "inside", other)
         if kind in ("on", "touch", "reach", "around") or within:
             out.add(call("touch", s, t))
+            if (
+                ("scale", other) in out.motions
+                and out.shapes.lies(name, "on", other)
+                and ("translate", name) in out.motions
+            ):
+                out.add(keeps("max_y", other))  # what comes down on it says that it keeps its foot
         elif kind in SIDED:
             out.add(call(SIDED[kind], s, quoted(other)))
         elif kind in ("inside", "overlap", "parallel", "perpendicular"):

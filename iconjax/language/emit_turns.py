@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from iconjax.errors import TranslationError
+from iconjax.language.bearings import RELATIVE, bearing, turning
 from iconjax.language.clauses import Clause
 from iconjax.language.collector import Collector, call, keeps, quoted
 
@@ -12,7 +13,7 @@ def rotate(out: Collector, clause: Clause) -> None:
     out.moves("rotate", clause)
     degrees = clause.amount.value if clause.amount else 0.0
     for name in clause.theme:
-        sign = sense(out, name, clause)
+        sign = sense(out, clause.theme[0] if "together" in clause.manner else name, clause)
         s = quoted(name)
         if sign:
             out.equal(call("rotation", s), sign * degrees)
@@ -27,6 +28,14 @@ def sense(out: Collector, name: str, clause: Clause) -> int:
     direction = clause.direction
     if direction in ("cw", "ccw"):
         return 1 if direction == "cw" else -1
+    if direction in RELATIVE:
+        try:
+            way = bearing(out.shapes, name, direction, clause.theme)
+        except TranslationError:
+            if direction in ("in", "out"):
+                raise
+            return 0  # which end is in front the picture does not say
+        return turning(out.shapes, name, way)
     if direction in ("up", "down"):
         x, y = out.shapes.centre(name)
         px, _ = out.shapes.pivot(name)
@@ -61,7 +70,7 @@ def orient(out: Collector, clause: Clause) -> None:
         if relation in ("parallel", "perpendicular"):
             for other in clause.reference:
                 out.add(call(relation, s, quoted(other)))
-                out.anchors.setdefault(other, name)
+                out.anchor(other, name)
             continue
         if out.shapes.round(name):
             raise TranslationError(f'"{name}" has no long direction that could be {relation}')
@@ -91,11 +100,13 @@ def hinge(out: Collector, clause: Clause) -> None:
 
 def pin(out: Collector, name: str, x: float, y: float) -> None:
     """A material point keeps its place."""
-    point, s = f"[{x:g}, {y:g}]", quoted(name)
+    point, s = f"[{x:.4g}, {y:.4g}]", quoted(name)
     out.add(call("coincide_on_point", s, point, call("old", s), point))
 
 
 def point(out: Collector, name: str, side: str) -> tuple[float, float]:
+    if side in ("top", "bottom", "left", "right"):
+        return out.shapes.end(name, side)
     x0, y0, x1, y1 = out.shapes.box(name)
     x = x0 if "left" in side else x1 if "right" in side else (x0 + x1) / 2
     y = y0 if "top" in side else y1 if "bottom" in side else (y0 + y1) / 2

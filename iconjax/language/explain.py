@@ -109,6 +109,7 @@ TELLERS: Mapping[str, Callable[[Clause], str]] = {
     "side": lambda c: f"is on the {c.direction}",
     "stay": lambda _: "stays",
     "swap": lambda _: "change places",
+    "space": lambda c: "are spaced evenly" + (f", {c.amount.value:g} px from one to the next" if c.amount else ""),
     "align": lambda c: f"their {c.side} sides are brought in line",
     "together": lambda _: "move as one",
 }

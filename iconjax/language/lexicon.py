@@ -34,13 +34,17 @@ class Lexicon:
     Attributes:
         phrases: words of a phrase -> its readings.
         words: every single word that occurs in some phrase (used to recognise typing errors).
-        synonyms: word -> words that everyday speech uses for the same thing.
+        synonyms: word -> names that everyday speech uses for the same thing; a name may have several words.
+        kinds: word -> more general and more particular words.
+        pieces: word -> words of the pieces that pictures often show such a thing in.
         plurals: irregular plural -> singular.
     """
 
     phrases: Mapping[tuple[str, ...], tuple[Entry, ...]]
     words: frozenset[str]
     synonyms: Mapping[str, frozenset[str]]
+    kinds: Mapping[str, frozenset[str]]
+    pieces: Mapping[str, frozenset[str]]
     plurals: Mapping[str, str]
     longest: int
 
@@ -56,6 +60,10 @@ class Lexicon:
         """Whether the single word has a reading in one of `categories`."""
         wanted = set(categories)
         return any(e.category in wanted for e in self.phrases.get((word,), ()))
+
+    def entries(self, word: str, category: str) -> tuple[Entry, ...]:
+        """The readings of a single word in a category."""
+        return tuple(e for e in self.phrases.get((word,), ()) if e.category == category)
 
     def singular(self, word: str) -> str:
         """The singular of a noun by rule; a word that is no plural comes back as it is."""
@@ -73,21 +81,31 @@ class Lexicon:
 @cache
 def lexicon() -> Lexicon:
     """The built-in lexicon, read once."""
-    data = tomllib.loads(files("iconjax.language").joinpath("lexicon.toml").read_text(encoding="utf-8"))
+    data, things = _read("lexicon.toml"), _read("synonyms.toml")
     phrases: dict[tuple[str, ...], list[Entry]] = {}
     for form, entry in _entries(data):
         phrases.setdefault(tuple(form.replace(",", " ,").split()), []).append(entry)
-    synonyms: dict[str, set[str]] = {}
-    for group in data["synonym"]["groups"]:
-        for word in group:
-            synonyms.setdefault(word, set()).update(set(group) - {word})
+    groups = (g for theme in things["close"].values() for g in theme)
     return Lexicon(
         {k: tuple(v) for k, v in phrases.items()},
         frozenset(w for k in phrases for w in k),
-        {k: frozenset(v) for k, v in synonyms.items()},
+        _related((a, b) for group in groups for a in group for b in group),
+        _related(pair for a, members in things["kinds"].items() for b in members for pair in ((a, b), (b, a))),
+        {word: frozenset(pieces) for word, pieces in things["pieces"].items()},
         data["irregular_plural"],
         max(map(len, phrases)),
     )
+
+
+def _read(name: str) -> dict[str, Any]:
+    return tomllib.loads(files("iconjax.language").joinpath(name).read_text(encoding="utf-8"))
+
+
+def _related(pairs: Iterable[tuple[str, str]]) -> dict[str, frozenset[str]]:
+    out: dict[str, set[str]] = {}
+    for a, b in pairs:
+        out.setdefault(a, set()).update({b} - {a})
+    return {k: frozenset(v) for k, v in out.items()}
 
 
 def _entries(data: Mapping[str, Any]) -> Iterator[tuple[str, Entry]]:
@@ -99,7 +117,7 @@ def _entries(data: Mapping[str, Any]) -> Iterator[tuple[str, Entry]]:
         for form, degree in _adjective_forms(adjective):
             yield form, Entry("adjective", adjective["dim"], {**adjective, "degree": degree})
     for category, table in data.items():
-        if category in {"verb", "adjective", "synonym", "irregular_plural"}:
+        if category in {"verb", "adjective", "irregular_plural"}:
             continue
         for value, forms in table.items():
             for form in forms:

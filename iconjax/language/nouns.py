@@ -35,6 +35,8 @@ GRAMMAR = frozenset(
     ]
 )
 """Categories that win over a name when nothing announces a noun."""
+MODAL = frozenset({"make", "let", "have", "want", "should", "must", "shall", "would", "to", "can", "could"})
+MOST_STRANGE = 2
 ANAPHORS = frozenset({"one", "ones", "other", "others"})
 
 
@@ -50,13 +52,13 @@ class NounReader:
 
     def body(self, i: int, announced: bool) -> tuple[Phrase, int] | None:
         """Modifiers and nouns at `i`; `announced` says that a determiner or owner came before."""
-        strange = self.strange(i) if announced and self.noun_follows(i + 1) else ()
+        strange = self._strange_before(i, announced)
         i += len(strange)
         special = self._special(i, announced)
         if special is not None:
             return Phrase("", special=special), i + 1
         phrase, start = Phrase("", ignored=strange), i
-        while announced or self.noun_follows(i):
+        while announced or self.noun_follows(i) or self._bare_one(i):
             if announced and self._elliptical(i):
                 return self._alone(phrase, i), i + 1
             step = self._premodifier(i)
@@ -102,7 +104,8 @@ class NounReader:
 
     def _is_name(self, nouns: Sequence[str]) -> bool:
         every = (*self.names.objects, *self.names.parts)
-        return any(set(nouns) in (set(e.part_words), set(e.object_words)) for e in every)
+        cover = self.names.hearing.cover
+        return any(cover(nouns, words) == words for e in every for words in (e.part_words, e.object_words) if words)
 
     def _from_side(self, phrase: Phrase, i: int) -> tuple[Phrase, int]:
         """ "... from the right", "... on the left" after a noun that needs telling apart."""
@@ -113,6 +116,8 @@ class NounReader:
         where = self.lexicon.match(self.words, i, "direction") if self.word(i) == "on" else None
         if where is None or where[0].value not in ("left", "right") or self.word(where[1]) == "of":
             return phrase, i
+        if self.noun_follows(where[1]):
+            return phrase, i
         if phrase.plural or phrase.modifiers or len(self.names.like(phrase)) < 2:
             return phrase, i
         return with_(phrase, modifiers=(where[0].value,)), where[1]
@@ -122,7 +127,24 @@ class NounReader:
         heard = self.names.hear(self.word(i))
         if heard is None or self.lexicon.knows(self.word(i), {"direction", "adjective", "relation", "mode", "stop"}):
             return False
-        return any({*nouns, *heard} <= e.words and set(heard) <= e.part_words for e in self.names.parts)
+        cover = self.names.hearing.cover
+        parts = self.names.parts
+        return any(cover((*nouns, *heard), e.words) and cover(heard, e.part_words) for e in parts)
+
+    def _strange_before(self, i: int, announced: bool) -> tuple[str, ...]:
+        """Words that mean nothing here, before a noun: "the beach | ball", "squeaky toy | cart"."""
+        if not announced and not self._opens(i):
+            return ()
+        for count in range(1, MOST_STRANGE + 1):
+            if not self.strange(i + count - 1):
+                return ()
+            if self.noun_follows(i + count):
+                return tuple(self.words[i : i + count])
+        return ()
+
+    def _opens(self, i: int) -> bool:
+        """Whether a thing without article may be named at `i`: at the start, after a separator or a verb."""
+        return i == 0 or self.lexicon.knows(self.words[i - 1], {"separator", "verb", "quantifier"})
 
     def strange(self, i: int) -> tuple[str, ...]:
         """The word at `i` where it means nothing at all here."""
@@ -171,9 +193,26 @@ class NounReader:
         word = self.word(i)
         if not word or self.names.hear(word) is None:
             return False
-        if announced:
+        if announced or self._bare(i):
             return True
         return not self.lexicon.knows(word, GRAMMAR)
+
+    def _bare_one(self, i: int) -> bool:
+        """Whether "left one", "big one" opens a phrase without an article."""
+        telling = self.lexicon.knows(self.word(i), {"modifier", "ordinal"}) or self.word(i) == "other"
+        return telling and self.word(i + 1) in ("one", "ones") and self._opens(i)
+
+    def _bare(self, i: int) -> bool:
+        """Whether a label's word that may be a verb is a noun here: "widen | stand", "stand half as tall"."""
+        word, after = self.word(i), self.word(i + 1)
+        if not self._opens(i) or self.lexicon.singular(word) not in self.names.vocabulary:
+            return False
+        kinds = {e.category for e in self.lexicon.phrases.get((word,), ())}
+        if not kinds or not kinds <= {"verb", *THINGS, "descriptor", "synonym"}:
+            return False
+        if i > 0 and self.lexicon.knows(self.words[i - 1], {"verb"}) and self.words[i - 1] not in MODAL:
+            return not self.lexicon.knows(after, {"pronoun"}) and after not in ("the", "a", "an", "its")
+        return self.lexicon.knows(after, {"number", "fraction", "multiple", "adjective", "mode"}) or after.isdigit()
 
 
 def with_(phrase: Phrase, **changes: object) -> Phrase:
@@ -190,4 +229,6 @@ def _described(phrase: Phrase, kind: str, value: str) -> Phrase:
             return with_(phrase, ordinal=int(value))
         case "other":
             return with_(phrase, indefinite="other")
+        case "descriptor":
+            return with_(phrase, descriptors=(*phrase.descriptors, value))
     return phrase

@@ -1,38 +1,54 @@
-"""The built-in translator: a small grammar over a lexicon, which refuses what it does not understand."""
+"""The built-in translator: a grammar over a lexicon, which refuses what it does not understand."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from itertools import product
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+
+from lark import Token, Tree
 
 from iconjax.errors import TranslationError
+from iconjax.language.alternatives import variants
 from iconjax.language.asides import without_asides
-from iconjax.language.base import Translation
+from iconjax.language.base import Reading, Translation
+from iconjax.language.canonical import canonical
 from iconjax.language.chunks import Chunk, chunk
 from iconjax.language.clauses import Clause
+from iconjax.language.consistency import check_values
 from iconjax.language.context import Context
 from iconjax.language.emit import emit
 from iconjax.language.explain import describe, refusal
-from iconjax.language.frames import SlotFiller, Slots
+from iconjax.language.grammar import Misfit, parses
 from iconjax.language.lexicon import Lexicon, lexicon
-from iconjax.language.names import Names, Phrase
-from iconjax.language.reading import FOLLOWING
+from iconjax.language.names import Names
 from iconjax.language.readings import Reader
+from iconjax.language.sentence import clauses_of
 from iconjax.language.tidy import tidy
 from iconjax.language.words import mend, split_hyphens, tokenise
 from iconjax.scene.types import Scene
 
-MOST_JOINTS = 6
-Item = Chunk | tuple[Phrase, ...]
+IDLE = frozenset({"keep", "stay", "topic", "together", "hinge", "go", "turn", "resize"})
+"""Actions that alone ask for no change, or for none of a known size."""
 
 
 class OfflineTranslator:
     """Reads requests about place, pose and size (English) without any model.
 
     Every word of a request must play a part in its reading; otherwise it is refused, naming the words.
+
+    Args:
+        readings: most different readings to give, best first.
     """
 
     name = "offline"
+
+    def __init__(self, readings: int = 1) -> None:
+        self.readings = max(1, readings)
+
+    def with_readings(self, count: int) -> OfflineTranslator:
+        """A translator that gives up to `count` different readings of a request."""
+        return OfflineTranslator(count)
 
     def translate(self, request: str, scene: Scene) -> Translation:
         """Read `request` against `scene`.
@@ -40,61 +56,141 @@ class OfflineTranslator:
         Raises:
             TranslationError: not understood; says what was, which words were not, and which names exist.
         """
-        words_of, names = lexicon(), Names(scene, lexicon())
-        words = self._words(request, words_of, names)
-        understood: list[str] = []
-        unknown: list[str] = []
+        search = self._search(request, scene, {})
+        found: list[_Found] = []
         try:
-            chunks = chunk(words, words_of, names)
-            unknown = [c.text for c in chunks if c.kind == "unknown"]
-            if unknown:
-                raise TranslationError(
-                    f"no meaning for {', '.join(repr(u) for u in unknown)}" if chunks else "it is empty"
-                )
-            clauses = tidy(self._read(chunks, words, names, understood))
-            _check_guesses(clauses)
-            program = emit(clauses, names.shapes)
-            if not any(
-                c.action not in ("keep", "stay", "topic", "together", "hinge", "go", "turn", "resize") for c in clauses
-            ):
-                raise TranslationError(
-                    "it says what should stay or which way to change, and not what should change by how much"
-                )
+            self._collect(search, found)
         except TranslationError as error:
-            known = [c.text for c in chunks if c.kind == "phrase"] if not understood and unknown else understood
-            raise TranslationError(refusal(str(error), known, unknown, scene.names, scene.objects)) from None
-        notes = tuple(dict.fromkeys(names.notes))
-        return Translation(program, self.name, (*(describe(c) for c in clauses), *notes))
+            if self.readings > 1:
+                self._choose(request, scene, search.names, found)
+            if not found:
+                refused = refusal(str(error), search.understood, search.unknown, scene.names, scene.objects)
+                raise TranslationError(refused) from None
+        first, *_ = found
+        several = tuple(Reading(r.gloss, r.program) for r in found) if len(found) > 1 else ()
+        return Translation(first.program, self.name, (*first.lines, *first.notes), readings=several)
 
-    def _words(self, request: str, words_of: Lexicon, names: Names) -> list[str]:
-        words = split_hyphens(tokenise(request), words_of.words | names.vocabulary)
-        out = []
-        for word in words:
-            if word.isalpha() and word not in words_of.words and names.hear(word) is None:
-                known = word in words_of.synonyms or words_of.singular(word) in words_of.synonyms
-                better = None if known else mend(word, (w for w in words_of.words if len(w) > 4))
-                if better is not None:
-                    names.notes.append(f'"{word}" read as "{better}"')
-                    word = better
-            out.append(word)
-        return without_asides(out, words_of, names)
+    def _search(self, request: str, scene: Scene, choices: Mapping[str, str]) -> _Search:
+        names = Names(scene, lexicon(), choices)
+        return _Search(_words(request, lexicon(), names), names, several=self.readings > 1)
 
-    def _read(self, chunks: Sequence[Chunk], words: Sequence[str], names: Names, understood: list[str]) -> list[Clause]:
-        """The first way of joining things with "and" that gives every piece a place."""
-        failure: TranslationError | None = None
-        for items in _groupings(chunks):
-            done: list[Clause] = []
+    def _collect(self, search: _Search, found: list[_Found]) -> None:
+        """Add the different readings of a search, as many as are wanted."""
+        known = {frozenset(map(canonical, reading.program)) for reading in found}
+        for reading in search.readings():
+            meaning = frozenset(map(canonical, reading.program))
+            if meaning not in known:
+                known.add(meaning)
+                found.append(reading)
+            if len(found) >= self.readings:
+                return
+
+    def _choose(self, request: str, scene: Scene, names: Names, found: list[_Found]) -> None:
+        """One reading for each of the things that the last doubtful phrase could be."""
+        text, could_be = next(reversed(names.doubts.items()), ("", ()))
+        for name in could_be[: self.readings]:
+            with suppress(TranslationError):
+                search = self._search(request, scene, {text: name})
+                found.append(next(search.readings()))
+
+
+@dataclass(frozen=True)
+class _Found:
+    """A reading: its program, a line for each clause, and what had to be assumed."""
+
+    program: tuple[str, ...]
+    lines: tuple[str, ...]
+    notes: tuple[str, ...]
+
+    @property
+    def gloss(self) -> str:
+        return "; ".join(self.lines)
+
+
+class _Search:
+    """The readings of a request, and what was understood of it where there are none.
+
+    Attributes:
+        understood: what the attempt that came furthest says, clause by clause.
+        unknown: words without a meaning or a place in it.
+    """
+
+    def __init__(self, words: Sequence[str], names: Names, several: bool = False) -> None:
+        self.words, self.names, self.several = words, names, several
+        self.understood: list[str] = []
+        self.unknown: list[str] = []
+        self.failure: TranslationError | None = None
+
+    def readings(self) -> Iterator[_Found]:
+        """Readings, best first, equal ones among them; at least one.
+
+        Raises:
+            TranslationError: none; why the attempt that came furthest has no reading.
+        """
+        some = False
+        cut: list[list[str]] = []
+        for things_first in (False, True):
             try:
-                reader = Reader(Context(names))
-                for slots in _clauses(items, words):
-                    done.extend(reader.read(slots))
-                if not done:
-                    raise TranslationError("nothing in it says what should change")
-                return done
+                pieces = self._pieces(things_first)
+                if [c.kind for c in pieces] in cut:
+                    continue
+                cut.append([c.kind for c in pieces])
+                notes = tuple(self.names.notes)
+                for tree in parses(pieces):
+                    self.names.notes[:] = notes
+                    for found in self._read(tree):
+                        some = True
+                        yield found
             except TranslationError as error:
-                if failure is None or len(done) > len(understood):
-                    failure, understood[:] = error, [describe(c) for c in done]
-        raise failure or TranslationError("it is empty")
+                self._fail(error, [])
+            if some:
+                return
+        raise self.failure or TranslationError("it is empty")
+
+    def _pieces(self, things_first: bool) -> list[Chunk]:
+        pieces = chunk(self.words, self.names.lexicon, self.names, things_first)
+        unknown = [c.text for c in pieces if c.kind == "unknown"]
+        if unknown:
+            if self.failure is None:
+                self.unknown, self.understood = unknown, [c.text for c in pieces if c.kind == "phrase"]
+            raise TranslationError(f"no meaning for {', '.join(repr(u) for u in unknown)}")
+        return pieces
+
+    def _read(self, tree: Tree[Token]) -> Iterator[_Found]:
+        """What a parse says and, where several readings are wanted, what else it may say."""
+        done: list[Clause] = []
+        try:
+            reader = Reader(Context(self.names))
+            for slots in clauses_of(tree, self.words):
+                done.extend(reader.read(slots))
+            clauses = tidy(done)
+            every = variants(clauses) if self.several else [clauses]
+            for one in every:
+                program = _program(one, self.names)
+                lines = tuple(describe(c) for c in one)
+                yield _Found(program, lines, tuple(dict.fromkeys(self.names.notes)))
+        except TranslationError as error:
+            self._fail(error, [describe(c) for c in done])
+
+    def _fail(self, error: TranslationError, understood: list[str]) -> None:
+        """Remember the failure of the attempt that came furthest."""
+        if self.failure is None or len(understood) > len(self.understood):
+            self.failure = error
+            self.understood = understood or self.understood
+            self.unknown = [error.words] if isinstance(error, Misfit) and error.words else self.unknown
+
+
+def _program(clauses: Sequence[Clause], names: Names) -> tuple[str, ...]:
+    if not clauses:
+        raise TranslationError("nothing in it says what should change")
+    _check_guesses(clauses)
+    program = emit(clauses, names.shapes)
+    check_values(program)
+    if all(c.action in IDLE for c in clauses):
+        raise TranslationError(
+            "it says what should stay or which way to change, and not what should change by how much"
+        )
+    return program
 
 
 def _check_guesses(clauses: Sequence[Clause]) -> None:
@@ -106,134 +202,15 @@ def _check_guesses(clauses: Sequence[Clause]) -> None:
             raise TranslationError(f"how much {' and '.join(clause.theme)} should change is not said")
 
 
-def _groupings(chunks: Sequence[Chunk]) -> Iterator[list[Item]]:
-    """All ways to take "A and B": as one list of things, or as the seam between two clauses."""
-    joints = [
-        i
-        for i in range(1, len(chunks) - 1)
-        if chunks[i].kind == "separator"
-        and chunks[i].value == "soft"
-        and chunks[i - 1].kind == chunks[i + 1].kind == "phrase"
-    ][:MOST_JOINTS]
-    preferred = [_seam(chunks, i) for i in joints]
-    for choice in sorted(
-        product((False, True), repeat=len(joints)),
-        key=lambda c: sum(a != b for a, b in zip(c, preferred, strict=True)),
-    ):
-        seams = {j for j, seam in zip(joints, choice, strict=True) if seam}
-        yield _join(chunks, set(joints) - seams)
-
-
-def _seam(chunks: Sequence[Chunk], i: int) -> bool:
-    """Whether the "and" at `i` looks like a seam: a relation before it and something to say after it."""
-    before = []
-    for c in reversed(chunks[:i]):
-        if c.kind == "separator":
-            break
-        before.append(c)
-    between = any(c.kind == "relation" and c.value == "between" for c in before)
-    related = any(c.kind in ("relation", "as", "than", "direction", "amount", "adjective") for c in before)
-    after = chunks[i + 2] if i + 2 < len(chunks) else None
-    return related and not between and after is not None and after.kind != "separator"
-
-
-def _join(chunks: Sequence[Chunk], joints: set[int]) -> list[Item]:
-    out: list[Item] = []
-    i = 0
-    while i < len(chunks):
-        c = chunks[i]
-        if c.kind == "phrase" and i + 1 in joints:
-            phrases = [c.data]
-            while i + 1 in joints:
-                phrases.append(chunks[i + 2].data)
-                i += 2
-            out.append(tuple(phrases))
-        else:
-            out.append(c)
-        i += 1
-    return out
-
-
-def _clauses(items: Sequence[Item], words: Sequence[str]) -> Iterator[Slots]:
-    """The slots of one clause after another, each with the words that led to it and to the next."""
-    groups: list[tuple[str, list[Item]]] = [("", [])]
-    for at, item in enumerate(items):
-        if isinstance(item, Chunk) and _splits(items, at):
-            text = item.text if item.kind == "separator" else "and" if item.kind == "verb" else "without"
-            if item.kind == "mode":
-                text = "by" if item.text == "by" else "until"
-            if groups[-1][1]:
-                groups.append((text, []))
-            elif groups[-1][0] in ("", ",", "and"):
-                groups[-1] = (text, [])
-            if item.kind in ("without", "verb"):
-                groups[-1][1].append(item)
-            continue
-        groups[-1][1].append(item)
-    groups = [g for g in groups if any(not (isinstance(c, Chunk) and c.kind == "instead") for c in g[1])]
-    for at in range(1, len(groups) - 1):
-        # "shrink it, without distorting it, until ...": what follows belongs to what was before
-        if groups[at][0] == "without" and groups[at + 1][0] in FOLLOWING:
-            groups[at], groups[at + 1] = groups[at + 1], groups[at]
-    for index, (connector, group) in enumerate(groups):
-        try:
-            slots = SlotFiller(group).fill()
-        finally:
-            pass
-        slots.connector = connector
-        slots.follows = groups[index + 1][0] if index + 1 < len(groups) else ""
-        first = next((c.start for c in group if isinstance(c, Chunk)), 0)
-        last = max((c.start for c in group if isinstance(c, Chunk)), default=first)
-        slots.text = " ".join(words[first : last + 3])
-        yield slots
-
-
-def _splits(items: Sequence[Item], at: int) -> bool:
-    """Whether the piece begins a new clause."""
-    item = items[at]
-    assert isinstance(item, Chunk)
-    if item.kind == "without":
-        # "while the pot does not change": the thing is that of the denial
-        return not (_kind(items, at - 1) == "phrase" and (at == 1 or _is_separator(items[at - 2])))
-    if item.kind == "mode":
-        following = items[at + 1] if at + 1 < len(items) else None
-        doing = isinstance(following, Chunk) and following.kind == "verb" and bool(following.data.info["participle"])
-        return item.text.startswith("until") or (item.text == "by" and doing)
-    if item.kind == "verb":
-        # "..., keeping its base in place" also without a comma
-        subject = at > 1 and _kind(items, at - 1) == "phrase" and _is_separator(items[at - 2])
-        return (
-            item.value == "keep"
-            and bool(item.data.info["participle"])
-            and at > 0
-            and not _is_separator(items[at - 1])
-            and not subject
-        )
-    if item.kind != "separator":
-        return False
-    if item.value == "hard":
-        return True
-    before, after = _kind(items, at - 1), _kind(items, at + 1)
-    if item.text == "-":
-        return False
-    same = before == after and before in ("verb", "direction", "dim", "adjective", "sense")
-    if before == after == "dim" or (before == after == "verb"):
-        return False
-    return not (same and before == "adjective" and not _amount_before(items, at)) or (
-        same and before == "direction" and False
-    )
-
-
-def _amount_before(items: Sequence[Item], at: int) -> bool:
-    return _kind(items, at - 2) == "amount"
-
-
-def _is_separator(item: Item) -> bool:
-    return isinstance(item, Chunk) and item.kind in ("separator", "without")
-
-
-def _kind(items: Sequence[Item], at: int) -> str:
-    if not 0 <= at < len(items):
-        return ""
-    item = items[at]
-    return item.kind if isinstance(item, Chunk) else "phrase"
+def _words(request: str, words_of: Lexicon, names: Names) -> list[str]:
+    """The words of a request, typing errors mended and asides left out."""
+    out = []
+    for word in split_hyphens(tokenise(request), words_of.words | names.vocabulary):
+        if word.isalpha() and word not in words_of.words and names.hear(word) is None:
+            known = word in words_of.synonyms or words_of.singular(word) in words_of.synonyms or word.endswith("ing")
+            better = None if known else mend(word, (w for w in words_of.words if len(w) > 4))
+            if better is not None:
+                names.notes.append(f'"{word}" read as "{better}"')
+                word = better
+        out.append(word)
+    return without_asides(out, words_of, names)

@@ -4,9 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from iconjax.errors import TranslationError
 from iconjax.language.names import Phrase
 from iconjax.language.nouns import NounReader, with_
 
+TELLING = {
+    **{kind: kind for kind in ("on", "inside", "above", "below", "left_of", "right_of", "touch")},
+    "around": "touch",
+    "beside": "touch",
+}
+"""Relations that may tell which of several like things is meant, and how they are checked."""
 DETERMINERS = frozenset({"the", "a", "an", "this", "that", "these", "those"})
 POSSESSIVES = frozenset({"its", "their", "his", "her"})
 
@@ -38,7 +45,42 @@ class PhraseReader(NounReader):
                 if owner is None or owner[0].pronoun not in (None, "it", "them"):
                     break
                 phrase, i = with_(phrase, owner=owner[0]), owner[1]
+        phrase, i = self._told_apart(phrase, i)
         return with_(phrase, text=" ".join(self.words[start:i]).replace(" 's", "'s")), i
+
+    def _told_apart(self, phrase: Phrase, i: int) -> tuple[Phrase, int]:
+        """ "The band | on the cup": of several bands the one that is there, where it is one."""
+        if phrase.owner or phrase.plural or phrase.side or not phrase.nouns or phrase.modifiers or phrase.ordinal:
+            return phrase, i
+        relation = self.lexicon.match(self.words, i, "relation")
+        if relation is None or relation[0].value not in TELLING or len(self.names.like(phrase)) < 2:
+            return phrase, i
+        whole = self.read(relation[1])
+        if whole is None or not whole[0].nouns or whole[0].side:
+            return phrase, i
+        for owner in self._owners_there(phrase, TELLING[relation[0].value], whole[0]):
+            return with_(phrase, owner=owner), whole[1]
+        return phrase, i
+
+    def _owners_there(self, phrase: Phrase, kind: str, whole: Phrase) -> list[Phrase]:
+        """The owner of the only one of several like things that is in a relation to another thing."""
+        try:
+            others = self.names.resolve(whole)
+        except TranslationError:
+            return []
+        shapes, like = self.names.shapes, self.names.like(phrase)
+        if len(others) != 1:
+            return []
+        own = [n for n in like if kind in ("on", "inside", "touch") and shapes.part_of(n, others[0])]
+        there = own or [n for n in like if shapes.lies(n, kind, others[0]) and not shapes.part_of(n, others[0])]
+        if len(there) != 1 or ":" not in there[0]:
+            return []
+        owner = Phrase("", nouns=tuple(shapes.segments(there[0])[0].object.lower().split()))
+        try:
+            told = self.names.resolve(with_(phrase, owner=owner), self.names.resolve(owner))
+        except TranslationError:
+            return []
+        return [owner] if told == (there[0],) else []
 
     def _stranger(self, i: int) -> tuple[str, ...]:
         """Up to two words at `i` that name nothing here, where the name of a thing is due: "the scales"."""
@@ -105,12 +147,21 @@ class PhraseReader(NounReader):
             phrase, i = found
             phrase = with_(phrase, indefinite=phrase.indefinite or indefinite)
             return with_(phrase, owner=owner, plural=phrase.plural or plural, count=count), i
-        alone = owner is None and quant is not None and i == quant[1]
-        if quantified and (self.word(i) in ("them", "it") or not announced):
+        extreme = self._extreme(i) if announced and owner is None and not quantified else None
+        return extreme or self._every(start, i, quant is not None) or self._pronoun_at(start)
+
+    def _extreme(self, i: int) -> tuple[Phrase, int] | None:
+        """ "(As long as) the rightmost"."""
+        got = self.lexicon.match([self.word(i)], 0, "modifier") if self.word(i).endswith("most") else None
+        return None if got is None else (Phrase("", modifiers=(got[0].value,)), i + 1)
+
+    def _every(self, start: int, i: int, quantified: bool) -> tuple[Phrase, int] | None:
+        """ "All of them", "both"."""
+        if quantified and self.word(i) in ("them", "it"):
             return Phrase("them", pronoun="them", plural=True), i + 1
-        if alone and self.word(start) in ("both", "each", "all"):
+        if quantified and self.word(start) in ("both", "each", "all") and self.word(i - 1) != "the":
             return Phrase(self.word(start), pronoun="them", plural=True), i
-        return self._pronoun_at(start)
+        return None
 
     def _pronoun_at(self, start: int) -> tuple[Phrase, int] | None:
         word = self.word(start)
@@ -132,7 +183,7 @@ class PhraseReader(NounReader):
             return None
         if self.word(end) == "of":
             whole = self.read(end + 1)
-            if whole is not None and not (known and self._has_part(whole[0], self.words[i:end])):
+            if whole is not None and not (known and self._names_part(whole[0], self.words[i:end])):
                 return Phrase("", side=side, owner=whole[0]), whole[1]
             return None
         if owner is not None and known:
@@ -149,8 +200,23 @@ class PhraseReader(NounReader):
         alone = side is not None and not self.noun_at(side[1], False)
         if side is not None and alone and not self._has_part(owner, self.words[i : side[1]]):
             return Phrase("", side=side[0].value, owner=owner), side[1]
-        body = self.body(i, True)
-        return None if body is None else (with_(body[0], owner=owner), body[1])
+        number = self.lexicon.match([spot], 0, "number")
+        count = int(number[0].value) if number is not None and self.noun_follows(i + 1) else None
+        body = self.body(i if count is None else i + 1, True)
+        if body is None:
+            return None
+        plural = body[0].plural or count is not None
+        return with_(body[0], owner=owner, count=count, plural=plural), body[1]  # "the bed's two legs"
+
+    def _names_part(self, owner: Phrase, words: Sequence[str]) -> bool:
+        """Whether words for a side are, of this owner, the name of a part: "both feet of the tub"."""
+        if self._has_part(owner, words):
+            return True
+        heard = tuple(h for w in words for h in self.names.hear(w) or ())
+        if not heard or owner.pronoun or owner.special or not owner.nouns:
+            return False
+        wholes = {n.split(":")[0] for n in self.names.like(owner)}
+        return any(":" in n and n.split(":")[0] in wholes for n in self.names.like(Phrase("", nouns=heard)))
 
     def _has_part(self, owner: Phrase, words: Sequence[str]) -> bool:
         if owner.pronoun or owner.special:

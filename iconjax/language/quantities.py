@@ -37,7 +37,7 @@ class QuantityReader:
     def number(self, i: int) -> tuple[float, int] | None:
         """A plain number in digits or words: 40, minus 10, twenty five, 1 1/2, one and a half."""
         sign = 1.0
-        if self.phrases.word(i) in ("minus", "-") and DECIMAL.match(self.phrases.word(i + 1)):
+        if self.phrases.word(i) == "minus" and DECIMAL.match(self.phrases.word(i + 1)):
             sign, i = -1.0, i + 1
         word = self.phrases.word(i)
         if DECIMAL.match(word):
@@ -80,9 +80,15 @@ class QuantityReader:
         if amount.unit in ("ratio", "times"):
             j = i + 1 if self.phrases.word(i) == "of" else i
             measure = self.measure(j)
-            if measure is not None:
+            manner = self.phrases.word(j).endswith(("ly", "wise", "ways"))  # "15 % vertically"
+            bare = self.lexicon.knows(self.phrases.word(i - 1), {"unit"}) and self._bare(i)
+            if measure is not None and not manner and not bare:
                 return replace(amount, of=measure[0]), measure[1]
         return amount, i
+
+    def _bare(self, i: int) -> bool:
+        """Whether a measure at `i` stands without "of" or an article: "30 % height" is no share of a height."""
+        return self.phrases.word(i) not in ("of", *DETERMINERS, *POSSESSIVES)
 
     def _plain(self, i: int) -> tuple[Amount, int] | None:
         vague = self.lexicon.match(self.words, i, "vague")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from iconjax.errors import TranslationError
-from iconjax.language.clauses import Clause
+from iconjax.language.clauses import Amount, Clause
 from iconjax.language.context import Context
 from iconjax.language.frames import Slots
 from iconjax.language.names import Reference
@@ -44,6 +44,11 @@ def _not_related(context: Context, slots: Slots, theme: Reference) -> Iterator[C
         if relation.kind == "outside" and target.names == ("@ground",):
             yield Clause("keep", theme.names, dimension="bottom")  # "without lifting it off the ground"
             continue
+        if relation.kind == "outside":
+            yield Clause(
+                "keep", theme.names, relation="touch", reference=target.names
+            )  # "without taking it out of ..."
+            continue
         if relation.kind not in ("touch", "overlap"):
             raise TranslationError(f'"not {relation.kind}" is not understood')
         shapes = context.names.shapes
@@ -54,6 +59,8 @@ def _not_related(context: Context, slots: Slots, theme: Reference) -> Iterator[C
 
 
 def still(context: Context, theme: Reference) -> Clause:
+    if theme.side is not None and theme.names == ("canvas",) and context.themes:
+        return Clause("keep", context.themes[0], dimension=theme.side)  # "make it half as wide, left edge stays put"
     if theme.side is not None:
         return Clause("keep", owner(context, theme), dimension=theme.side)
     return Clause("stay", theme.names)
@@ -65,6 +72,9 @@ def owner(context: Context, theme: Reference) -> tuple[str, ...]:
 
 def keep(context: Context, slots: Slots, theme: Reference) -> Iterator[Clause]:
     names = owner(context, theme)
+    if slots.gap and len(names) == 2 and slots.amount is None:
+        yield Clause("gap", names, Amount(1.0, "factor"))
+        return
     if slots.shifts or (slots.amount is not None):
         raise TranslationError("something should stay and change at once")
     for relation in slots.relations:
@@ -76,7 +86,7 @@ def keep(context: Context, slots: Slots, theme: Reference) -> Iterator[Clause]:
     for change in slots.changes:
         yield Clause("keep", names, dimension=change.dim)
     if slots.marks.get("fixed", "").endswith(("level", "height")):
-        yield Clause("keep", names, dimension="horizontal")
+        yield Clause("keep", names, dimension="level")
         return
     if "orient" in slots.marks:
         yield Clause("keep", names, dimension="rotation")

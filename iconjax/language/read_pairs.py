@@ -41,6 +41,8 @@ def gap(context: Context, slots: Slots, theme: Reference) -> Clause:
     if amount.of is not None and amount.of.owners and amount.of.dim != "gap":
         reference, dim = context.reference(amount.of.owners, names).names, amount.of.dim
         final = amount
+    elif amount.unit == "px" and slots.marks.get("apart") == "apart" and _told(slots):
+        final = Amount(amount.value, "length")  # "they should be 70 px apart"
     elif amount.unit == "px":
         final = (
             Amount(amount.value, "length") if not sign or amount.mode == "to" else Amount(sign * amount.value, "added")
@@ -48,7 +50,29 @@ def gap(context: Context, slots: Slots, theme: Reference) -> Clause:
     else:
         final = factor(amount, sign, Change("gap"), False)
     moved = "rotate" if "rotate" in {*slots.kinds(), *(v.value for v in context.verbs)} else "translate"
-    return Clause("gap", names, final, dim, reference=reference, side=theme.side, manner=frozenset({moved}))
+    manner = frozenset({moved, *({"first"} if theme.side and final.unit == "length" else ())})
+    return Clause("gap", names, final, dim, reference=reference, side=theme.side, manner=manner)
+
+
+def _told(slots: Slots) -> bool:
+    """Whether a clause tells how far apart things are to be, and not how much further."""
+    more = {"further", "farther", "more", "wider", "another", "extra"} & set(slots.text.split())
+    return slots.kinds() <= {"make"} and not more
+
+
+def space(context: Context, theme: Reference, slots: Slots) -> Clause:
+    """ "Space the windows evenly (40 px from one to the next)"."""
+    names = theme.names
+    if len(names) == 1:
+        names = context.names.members_if_collection(names[0])
+    if len(names) < 3:
+        raise TranslationError(f"three things or more can be spaced evenly; the request names {listed(names)}")
+    amount = slots.amount or next((s.amount for s in slots.shifts if s.amount is not None), None)
+    if amount is not None and amount.unit not in ("px", "none"):
+        raise TranslationError("the distance from one to the next has to be in px")
+    axis = "vertical" if any(c.dim == "vert" for c in slots.changes) else ""
+    axis = "horizontal" if any(c.dim == "hori" for c in slots.changes) else axis
+    return Clause("space", names, amount, side=axis or None)
 
 
 def follow(context: Context, slots: Slots, theme: Reference) -> Iterator[Clause]:
@@ -75,4 +99,12 @@ def align(context: Context, slots: Slots, theme: Reference) -> Clause:
     if len(theme.names) < 2 or (theme.side is None and len(dims) != 1):
         raise TranslationError('align what with what, and on which side? say e.g. "align the tops of A and B"')
     side = theme.side or {"vert": "vertical", "hori": "horizontal"}.get(dims.pop(), "")
+    if (
+        {"with", "to"} & set(slots.text.split())
+        and side in ("left", "right", "top", "bottom")
+        and len(theme.names) == 2
+    ):
+        # "align A with B": B stays
+        first, other = theme.names[:1], theme.names[1:]
+        return Clause("place", first, relation="flush", reference=other, side=side, theme_side=side)
     return Clause("align", theme.names, side=side)

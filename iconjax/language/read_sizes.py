@@ -11,6 +11,9 @@ from iconjax.language.frames import Change, Slots
 from iconjax.language.names import Reference
 from iconjax.language.reading import followed, is_own, listed
 
+SIDES = {"left": ("right", "left"), "right": ("left", "right"), "up": ("bottom", "top"), "down": ("top", "bottom")}
+"""Direction -> the sides that stay where a thing grows and where it shrinks that way."""
+
 
 def scale(context: Context, slots: Slots, theme: Reference) -> Iterator[Clause]:
     verbs = [v for v in slots.verbs if v.value == "scale"]
@@ -42,13 +45,14 @@ def pin(context: Context, slots: Slots, info: dict[str, object]) -> str:
     """A direction with a verb of size says which side gives: "stretch to the right" keeps the left side."""
     if info.get("base") in ("scale", "resize", "rescale", "size"):
         _scaled_up_or_down(slots, info)
-    side = ""
+    side = slots.marks.get("stays", "")
     for shift in slots.shifts:
         if "move" in slots.kinds() and any(c.amount for c in slots.changes):
             break
+        if shift.direction not in SIDES:
+            raise TranslationError(f'which side should give is not clear: "{shift.direction}wards" of what?')
         grows = int(str(info.get("sign", 0))) >= 0
-        opposite = {"left": "right", "right": "left", "up": "bottom", "down": "top"}[shift.direction]
-        same = {"left": "left", "right": "right", "up": "top", "down": "bottom"}[shift.direction]
+        opposite, same = SIDES[shift.direction]
         side = opposite if grows else same
         target = next((c for c in slots.changes if c.amount is None), None)
         if shift.amount is not None and target is not None:
@@ -109,14 +113,22 @@ def changed(
     """One change of one extent (or of the overall size)."""
     amount, sign = change.amount, change.sign or int(str(info.get("sign", 0)))
     dim = str(info["dim"]) if change.sign == 0 and info.get("dim") and change.dim == "size" else change.dim
+    if dim in ("short", "length") and context.complained in ("vert", "hori"):
+        dim = context.complained  # "it is too tall, make it shorter"
     if dim == "proportions":
         raise TranslationError("how the proportions should change is not understood: name the height or the width")
     if "factor" in info:
         if amount is not None:
             raise TranslationError(f'"{info["base"]}" says how much, and the request names another amount')
         amount = Amount(float(str(info["factor"])), "times", "to")
+    if change.same and amount is None and not change.reference and len(theme.names) > 1:
+        # "A and B should be equally tall"
+        yield Clause("resize", theme.names[:1])
+        yield Clause("scale", theme.names[1:], Amount(1.0, "factor"), dim, reference=theme.names[:1], side=dim)
+        return
     reference, reference_dim = _compared(context, change, amount, theme, dim)
     if slots.complaint and amount is None and slots.follows and slots.follows != "while":
+        context.complained = dim
         yield Clause("topic", theme.names)
         return
     if amount is None and not reference:
@@ -127,6 +139,7 @@ def changed(
         amount = vague(sign, change, theme, slots)
     manner = {f"pin {pinned}"} if pinned else set()
     manner |= {"without motion"} if slots.follows == "by" else set()
+    manner |= {"as one"} if len(theme.names) > 1 and "together" in slots.marks else set()
     size = factor(amount, sign, change, bool(reference))
     yield Clause("scale", theme.names, size, dim, reference=reference, manner=frozenset(manner), side=reference_dim)
 
@@ -167,6 +180,8 @@ def factor(amount: Amount | None, sign: int, change: Change, compared: bool) -> 
     value = _times(amount, sign, change) if amount.unit in ("times", "none") else None
     if value is None:
         value = _share(amount, sign, change, compared)
+    if not compared and not change.same and sign * (value - 1) < 0 and not (amount.of is not None and amount.of.owners):
+        raise TranslationError("it says larger and smaller at once")
     if value <= 0.01:
         raise TranslationError(f"a change by {100 * amount.value:g} % would leave nothing")
     return Amount(round(value, 4), "factor", amount.mode, vague=amount.vague)
@@ -195,7 +210,7 @@ def _times(amount: Amount, sign: int, change: Change) -> float | None:
 def _share(amount: Amount, sign: int, change: Change, compared: bool) -> float:
     """A share: of the whole ("to 60 %", "half as wide"), or of change ("by 40 %", "a third wider")."""
     value = amount.value
-    of_something = amount.of is not None and not amount.mode and (compared or change.sign == 0)
+    of_something = amount.of is not None and not amount.mode and (compared or not (change.sign or sign))
     if change.same or amount.mode == "to" or sign == 0 or of_something:
         return value
     return 1 + sign * value

@@ -51,7 +51,12 @@ def rotate(context: Context, slots: Slots, theme: Reference) -> Iterator[Clause]
         yield Clause("turn" if followed(slots) else "orient", names, relation=orient, manner=manner)
         slots.verbs = [v for v in slots.verbs if v.value != "move"]
     else:
-        yield _by_angle(slots, names, amount, direction)
+        turn = _by_angle(slots, names, amount, direction)
+        if turn.action == "rotate" and amount is not None and not (slots.shifts or slots.relations):
+            slots.verbs = [v for v in slots.verbs if v.value != "move"]  # "pull the lever 12 degrees to the left"
+        yield replace(turn, manner=turn.manner | ({"together"} if "together" in slots.marks else set()))
+    if len(names) > 1 and "together" in slots.marks:
+        yield Clause("together", names)
 
 
 def _amount_and_sense(slots: Slots) -> tuple[Amount | None, str]:
@@ -65,6 +70,9 @@ def _amount_and_sense(slots: Slots) -> tuple[Amount | None, str]:
             direction = direction or {"left": "ccw", "right": "cw"}.get(shift.direction, shift.direction)
             slots.shifts = slots.shifts[1:]
     lifting = next((v.info["direction"] for v in slots.verbs if v.info.get("direction")), "")
+    if "apart" in slots.marks and not direction and len(slots.theme) >= 1:
+        direction = "in" if slots.marks["apart"] == "closer" else "out"
+        slots.marks = {k: v for k, v in slots.marks.items() if k != "apart"}
     if lifting:
         slots.verbs = [v for v in slots.verbs if v.value != "move"]
     return amount, direction or lifting

@@ -6,7 +6,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from jaxtyping import Float
 
+from iconjax.language.hearing import label_words
+from iconjax.language.lexicon import lexicon
 from iconjax.scene.sampling import elongation, principal_axis
 from iconjax.scene.types import Scene, Segment
 
@@ -14,6 +17,7 @@ OBLIQUE_DEGREES = 15.0
 ELONGATED = 1.8
 SLENDER = 4.0
 ROUND = 1.1
+END_SHARE = 0.05
 Box = tuple[float, float, float, float]
 
 
@@ -78,6 +82,8 @@ class Shapes:
         if dim == "thick":
             # "thin" says little of a round thing; people mean its width then
             return "vert_len" if wide > 1.5 * high else "hori_len"
+        if dim == "length" and wide < 2 * high and stands(name):
+            return "vert_len"  # legs are as long as they are high
         upright = high > wide * (1.0 if dim == "length" else 0.9)
         return "vert_len" if upright else "hori_len"
 
@@ -107,6 +113,16 @@ class Shapes:
         one, two = self.box(a), self.box(b)
         return max(two[axis] - one[axis + 2], one[axis] - two[axis + 2])
 
+    def end(self, name: str, side: str) -> tuple[float, float]:
+        """The middle of what of a thing lies at one side (top, bottom, left, right): its foot, its tip."""
+        points = np.concatenate([_dense(loop, 0.01 * self.scene.size) for s in self.segments(name) for loop in s.loops])
+        along = points[:, 0 if side in ("left", "right") else 1] * (1 if side in ("left", "top") else -1)
+        near = points[along <= along.min() + END_SHARE * np.ptp(along)]
+        x, y = (near.min(0) + near.max(0)) / 2
+        extreme = {"left": 0, "top": 1, "right": 2, "bottom": 3}[side]
+        edge = self.box(name)[extreme]
+        return (edge, float(y)) if side in ("left", "right") else (float(x), edge)
+
     def pivot(self, name: str, other: str | None = None) -> tuple[float, float]:
         """Where the thing most likely turns: its point nearest to `other`, or to the rest of its object."""
         own = self.segments(name)
@@ -116,13 +132,28 @@ class Shapes:
             if other
             else [s for s in self.scene.segments if s.object == own[0].object and s.id not in ids]
         )
+        foreign = not rest
         rest = rest or [s for s in self.scene.segments if s.id not in ids]
         if not rest:
             return self.centre(name)
-        if other is None:
+        if other is None and not foreign:
             rest = [max(rest, key=lambda s: s.area)]
-        points = np.concatenate([loop for s in own for loop in s.loops])
-        others = np.concatenate([loop for s in rest for loop in s.loops])
+        points = np.concatenate([_dense(loop, 0.01 * self.scene.size) for s in own for loop in s.loops])
+        others = np.concatenate([_dense(loop, 0.01 * self.scene.size) for s in rest for loop in s.loops])
         gaps = np.linalg.norm(points[:, None] - others[None], axis=2).min(1)
         near = points[gaps <= gaps.min() + 0.02 * self.scene.size]
         return float(near[:, 0].mean()), float(near[:, 1].mean())
+
+
+def stands(name: str) -> bool:
+    """Whether a thing by its name is one that stands or hangs upright: a leg, a post, a rope."""
+    words = lexicon()
+    return any(words.knows(w, {"upright_thing"}) for w in label_words(name, words))
+
+
+def _dense(loop: Float[np.ndarray, "n 2"], step: float) -> Float[np.ndarray, "m 2"]:
+    """The vertices of a closed loop with points between them, no further apart than `step` px."""
+    ends = np.roll(loop, -1, 0)
+    counts = np.maximum(1, np.ceil(np.linalg.norm(ends - loop, axis=1) / step).astype(int))
+    shares = np.concatenate([np.arange(n) / n for n in counts])[:, None]
+    return np.asarray(np.repeat(loop, counts, 0) * (1 - shares) + np.repeat(ends, counts, 0) * shares)

@@ -25,7 +25,48 @@ def tidy(clauses: Sequence[Clause]) -> list[Clause]:
             out.append(clause)
         else:
             out[at] = replace(out[at], relation="beside", manner=out[at].manner | said | _said(out[at]))
+    out = _with_senses(out)
+    out = [c for i, c in enumerate(out) if not _said_better(c, i, out)]
     return [c for i, c in enumerate(out) if not (c.action == "go" and _only_turns(c, out[i + 1 :]))]
+
+
+def _with_senses(clauses: list[Clause]) -> list[Clause]:
+    """Turns with the sense that an appended bit gives: "tip it by ten degrees, clockwise"."""
+    out: list[Clause] = []
+    for clause in clauses:
+        last = out[-1] if out else None
+        guessed = clause.amount is not None and clause.amount.mode == "unsaid"
+        open_ = last is not None and last.action == "rotate" and not last.direction and last.theme == clause.theme
+        if last is not None and open_ and clause.action == "rotate" and guessed and clause.direction in ("cw", "ccw"):
+            out[-1] = replace(last, direction=clause.direction)
+        else:
+            out.append(clause)
+    return out
+
+
+def _said_better(clause: Clause, at: int, every: Sequence[Clause]) -> bool:
+    """Whether a guessed amount is given by another clause: "a good deal larger, say double"."""
+    if clause.amount is None or not clause.amount.vague:
+        return False
+    swapped = {n for c in every if c.action == "swap" for n in c.theme}
+    if clause.action == "move" and set(clause.theme) <= swapped:
+        return True  # "swap them: the left one goes right"
+    if clause.action == "move" and _opposed(clause, every):
+        raise TranslationError(f"{' and '.join(clause.theme)} cannot go two opposite ways at once")
+    for other in every[at + 1 :]:
+        same = other.action == clause.action and other.theme == clause.theme
+        exact = other.amount is not None and not other.amount.vague
+        dims = {clause.dimension, other.dimension}
+        if same and exact and (len(dims) == 1 or "size" in dims) and other.direction in ("", clause.direction):
+            return True
+    return False
+
+
+def _opposed(clause: Clause, every: Sequence[Clause]) -> bool:
+    pairs = {"left": "right", "right": "left", "up": "down", "down": "up"}
+    return any(
+        c.action == "move" and c.theme == clause.theme and c.direction == pairs.get(clause.direction) for c in every
+    )
 
 
 def _only_turns(go: Clause, later: Sequence[Clause]) -> bool:

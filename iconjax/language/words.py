@@ -4,20 +4,21 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass
 
-
-@dataclass(frozen=True)
-class Mended:
-    """A word that was read as another one."""
-
-    written: str
-    read: str
+FRACTIONS = {"\u00bd": "1/2", "\u00bc": "1/4", "\u00be": "3/4", "\u2153": "1/3", "\u2154": "2/3"}
 
 
 def tokenise(request: str) -> list[str]:
     """Split a request into words, numbers, units and punctuation; quotes and brackets vanish."""
     text = request.lower().replace("\u2019", "'").replace("\u2018", "'").replace("\u2212", "-")
+    text = re.sub(r"[-=]+>|\u2192|\u21d2", " : ", text)
+    text = re.sub(r":=", " = ", text)
+    for mark, fraction in FRACTIONS.items():
+        text = text.replace(mark, f" {fraction} ")
+    text = re.sub(r"\.{2,}|\u2026", " ; ", text)
+    text = re.sub(r"\s*[(\[]\s*", " , ", text)
+    text = re.sub(r"\s*[)\]]\s*(?=[.;:,!?]|$)", " ", text)
+    text = re.sub(r"\s*[)\]]\s*", " , ", text)
     text = re.sub(r"\b(its) own\b", r"\1", text)
     text = re.sub(r"\bit's\b", "its" if not re.match(r"\s*it's\b", text) else "it is", text)
     text = re.sub(r"\b(that|there|he|she|who|what)'s\b", r"\1 is", text)
@@ -28,10 +29,10 @@ def tokenise(request: str) -> list[str]:
     text = re.sub(r"\b(\d+) *(?:x|×) *(?=bigger|larger|as|the|wider|taller|longer|smaller)", r"\1 times ", text)
     text = re.sub(r"(?<![\w.])-(?=\d)", " minus", text)  # kept as a word of its own
     text = re.sub(r"(?<=\d)-(?=[a-z])", " ", text)
-    text = re.sub(r"(?<=[a-z.,%]) +[-\u2013] +(?=[a-z])| *\u2014 *", " ; ", text)  # a dash between clauses
+    text = re.sub(r"(?<=[a-z.,%]) +[-\u2013] +(?=[a-z\d])| *\u2014 *", " ; ", text)  # a dash between clauses
     words: list[str] = []
     for match in re.finditer(
-        r"\d+(?:st|nd|rd|th)\b|\d+(?:\.\d+)?|minus(?=\d)|[a-zà-öø-ÿ]+(?:-[a-zà-öø-ÿ]+)*|'s\b|[%°º×;:,.!?&#/-]",
+        r"\d+(?:st|nd|rd|th)\b|\d+(?:\.\d+)?|minus(?=\d)|[a-zà-öø-ÿ]+(?:-[a-zà-öø-ÿ]+)*|'s\b|[%°º×;:,.!?&#/=+-]",
         text,
     ):
         words.append(match.group())
