@@ -1,0 +1,212 @@
+"""Clauses that tell a story around an instruction: "The sink has to fit a smaller kitchen: take 30 % off its width".
+
+A clause is left aside only where it says nothing about place, pose or size (or says it of what the picture does not
+show), holds a word that means nothing here, and another clause is left to ask for something. What it was about is
+kept as a topic, so that "its" finds it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+from iconjax.language.lexicon import Lexicon
+from iconjax.language.names import THINGS, Names
+
+STRONG = frozenset({".", ";", ":", "!", "?"})
+ADJUNCTS = frozenset(
+    {"so", "because", "since", "as", "like", "for", "otherwise", "when", "where", "which", "who", "if"}
+)
+WEIGHTY = frozenset(
+    {"number", "fraction", "multiple", "unit", "dim", "sense", "orient", "fixed", "without", "apart", "distance"}
+    | {"upside_down", "vague", "direction", "squarely", "mutual", "places", "instead"}
+)
+"""Categories that say something about place, pose or size."""
+LINKING = "make"
+"""Kind of verbs that say nothing by themselves ("is", "has")."""
+PREPOSITIONS = frozenset(
+    {"in", "on", "at", "from", "with", "about", "around", "into", "over", "under", "off", "out", "up"}
+)
+DETERMINERS = frozenset({"the", "a", "an", "this", "that", "these", "those", "its", "his", "her", "their", "such"})
+SHORT = 6
+"""Words of the longest heading ("nose up:") that may be skipped for one strange word."""
+SMALL = frozenset({"a", "an", "one", "no", "only", "just", "all", "too", "like", "way", "much", "far"})
+
+
+def without_stories(words: Sequence[str], lexicon: Lexicon, names: Names) -> list[str]:
+    """The words without clauses that only tell a story; what was left aside is noted."""
+    view = _View(lexicon, names)
+    parts = _parts(words)
+    kinds = []
+    for at, (mark, part) in enumerate(parts):
+        heading = at == 0 and len(parts) > 1 and parts[1][0][:1] != [","]
+        colon = at + 1 < len(parts) and parts[at + 1][0] == [":"]
+        kinds.append(view.kind(part, heading, bool(set(mark) & {"so", "like"}), colon))
+    if "story" not in kinds or "instruction" not in kinds:
+        return list(words)
+    out: list[str] = []
+    for at, ((mark, part), kind) in enumerate(zip(parts, kinds, strict=True)):
+        if kind != "story":
+            out.extend([*mark, *part] if out else part)
+            continue
+        topic = view.topic(part)
+        later = [w for _, p in parts[at + 1 :] for w in p]
+        back = (not mark or mark[0] in STRONG) and view.refers_back(later)
+        if back and not topic:
+            return list(words)  # "it" would be what is not shown
+        names.notes.append(f'left aside: "{" ".join(part)}"')
+        if back:
+            out.extend([*mark, *topic] if out else topic)
+    return out
+
+
+def _parts(words: Sequence[str]) -> list[tuple[list[str], list[str]]]:
+    """Clauses and adjuncts with the words that lead to them."""
+    out: list[tuple[list[str], list[str]]] = [([], [])]
+    for i, word in enumerate(words):
+        after_comma = i > 0 and words[i - 1] == ","
+        if word in STRONG or (word == "," and words[i + 1 : i + 2] and words[i + 1] in ADJUNCTS):
+            out.append(([word], []))
+        elif word in ADJUNCTS and not out[-1][1] and after_comma:
+            out[-1][0].append(word)
+        elif word in ("so", "because", "since", "otherwise", "like") and out[-1][1]:
+            out.append(([word], []))
+        else:
+            out[-1][1].append(word)
+    return [p for p in out if p[1] or p[0]]
+
+
+class _View:
+    def __init__(self, lexicon: Lexicon, names: Names) -> None:
+        self.lexicon, self.names = lexicon, names
+
+    def kind(self, part: Sequence[str], heading: bool, follows: bool = False, colon: bool = False) -> str:
+        """What a clause is: a "story", an "instruction", or "" where that is open.
+
+        Args:
+            heading: it leads to all the others; then its relations to strangers ("fit into a kitchen") ask for nothing
+                that the rest does not say.
+            follows: it is what comes of the rest ("so the toe comes up").
+            colon: it ends in a colon.
+        """
+        strange = [w for i, w in enumerate(part) if self.strange(w) and not self._in_phrase(part, i)]
+        strange = [w for w in strange if not self._names_next(part, part.index(w))]  # "the electric | guitar"
+        spatial = any(self._spatial(part, i, heading) for i in range(len(part)))
+        looks = heading and any(self.lexicon.knows(w, {"appear"}) for w in part) and not self._measured(part)
+        short = looks or (heading and colon and len(part) <= SHORT and not self._measured(part))
+        if strange and (short or not spatial or ((heading or follows) and self._of_strangers(part))):
+            return "story"
+        if not spatial and part and self.lexicon.knows(part[-1], {"descriptor"}):
+            return "story"  # "big eyes are cute"
+        if heading and self._exclaims(part) and not self._measured(part):
+            return "story"  # "such a big blossom on such a small plant!"
+        return "instruction" if spatial and all(self._things_only(w) for w in strange) else ""
+
+    def _exclaims(self, part: Sequence[str]) -> bool:
+        """Whether a clause without any verb tells how things are."""
+        entries = [e for w in part for e in self.lexicon.phrases.get((w,), ()) if self.names.hear(w) is None]
+        entries = [e for e in entries if not (e.category == "verb" and e.value == LINKING)]
+        doing = any(e.category in ("verb", "direction", "sense", "without") for e in entries)
+        compared = any(e.category == "adjective" and e.info["degree"] != "plain" for e in entries)
+        return not doing and not compared and self._amazed(part)
+
+    def _amazed(self, part: Sequence[str]) -> bool:
+        much = any(a in ("too", "so") and b in ("much", "many", "little", "few") for a, b in pairwise(part))
+        return much or bool({"such", "what"} & set(part))
+
+    def _measured(self, part: Sequence[str]) -> bool:
+        """Whether a clause gives an amount."""
+        amounts = {"number", "fraction", "multiple", "unit", "vague"}
+        return any(w.isdigit() or (w not in SMALL and self.lexicon.knows(w, amounts)) for w in part)
+
+    def _in_phrase(self, part: Sequence[str], i: int) -> bool:
+        """Whether the word at `i` belongs to a phrase of several words that the lexicon knows: "top end"."""
+        longest = self.lexicon.longest
+        spans = (
+            (a, b) for a in range(max(0, i - longest + 1), i + 1) for b in range(max(i, a + 1) + 1, a + longest + 1)
+        )
+        return any(tuple(part[a:b]) in self.lexicon.phrases for a, b in spans if b <= len(part))
+
+    def strange(self, word: str) -> bool:
+        """Whether a word means nothing here."""
+        if not word[:1].isalpha() or self.names.hear(word) is not None:
+            return False
+        return word not in self.lexicon.words or self._things_only(word)
+
+    def _things_only(self, word: str) -> bool:
+        kinds = {e.category for e in self.lexicon.phrases.get((word,), ())}
+        return bool(kinds) and kinds <= THINGS
+
+    def _spatial(self, part: Sequence[str], i: int, heading: bool) -> bool:
+        """Whether the word at `i` says something about place, pose or size of what the picture shows."""
+        word = part[i]
+        if word.isdigit() or word in ("not", "never", "without", "no"):
+            return word != "no" or not self._leads_to_stranger(part, i)
+        if word in SMALL or self._is_name(part, i):
+            return False
+        for entry in self.lexicon.phrases.get((word,), ()):
+            if entry.category in WEIGHTY:
+                return True
+            if entry.category in ("adjective", "verb", "relation"):
+                idle = entry.category == "verb" and entry.value == LINKING
+                idle = idle or (word in PREPOSITIONS and not self._leads_to_name(part, i))
+                if entry.category == "adjective" and entry.info.get("degree") == "plain" and self._names_next(part, i):
+                    continue
+                excused = heading or entry.category == "adjective"
+                if not idle and not (excused and self._leads_to_stranger(part, i)):
+                    return True
+        return False
+
+    def _is_name(self, part: Sequence[str], i: int) -> bool:
+        return self.names.hear(part[i]) is not None and i > 0 and part[i - 1] in DETERMINERS
+
+    def _after(self, part: Sequence[str], i: int) -> str:
+        """The first word after `i` that is no determiner, preposition or description."""
+        loose = {"modifier", "descriptor", "adjective", "relation"}
+        for word in part[i + 1 :]:
+            known = self.names.hear(word) is not None
+            if known or not (word in DETERMINERS or self.lexicon.knows(word, loose)):
+                return word
+        return ""
+
+    def _names_next(self, part: Sequence[str], i: int) -> bool:
+        """Whether a description stands before a name: "big eyes"."""
+        return i + 1 < len(part) and self.names.hear(part[i + 1]) is not None
+
+    def _leads_to_stranger(self, part: Sequence[str], i: int) -> bool:
+        after = self._after(part, i)
+        return bool(after) and self.strange(after)
+
+    def _leads_to_name(self, part: Sequence[str], i: int) -> bool:
+        return self.names.hear(self._after(part, i)) is not None
+
+    def _of_strangers(self, part: Sequence[str]) -> bool:
+        """Whether a clause is about something that the picture does not show: "a gust hits the boat"."""
+        first = next((i for i, w in enumerate(part) if w not in DETERMINERS), 0)
+        heavy = any(self.lexicon.knows(w, WEIGHTY - {"direction"}) and w not in SMALL for w in part)
+        told = first > 0 and self.strange(part[first]) and len(part) > first + 1
+        return told and not heavy and not any(w.isdigit() or w in ("not", "never", "without") for w in part)
+
+    def topic(self, part: Sequence[str]) -> list[str]:
+        """The first thing of the picture that a clause names, with its modifiers."""
+        for i, word in enumerate(part):
+            grammar = {"verb", "relation", "direction", "adjective"}
+            if self.names.hear(word) is None or (self.lexicon.knows(word, grammar) and not self._is_name(part, i)):
+                continue
+            start = i
+            while start > 0 and self.lexicon.knows(part[start - 1], {"modifier", "ordinal"}):
+                start -= 1
+            end = i + 1
+            while end < len(part) and self.names.hear(part[end]) is not None:
+                end += 1
+            return ["the", *part[start:end]]
+        return []
+
+    def refers_back(self, words: Sequence[str]) -> bool:
+        """Whether a pronoun, or nothing, comes before any thing is named."""
+        for word in words:
+            if self.lexicon.knows(word, {"pronoun"}) and word not in ("this", "that", "these", "those", "one", "rest"):
+                return True
+            if self.names.hear(word) is not None and not self.lexicon.knows(word, {"verb", "adjective", "direction"}):
+                return False
+        return True
