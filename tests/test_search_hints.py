@@ -12,6 +12,7 @@ from iconjax.search.candidate import build_candidate
 from iconjax.search.config import SearchConfig
 from iconjax.search.hints import distance, hint_matrices, hinted_start, hinted_state
 from iconjax.search.setup import prepare
+from iconjax.search.state import State
 from iconjax.solve.pose import matrices
 
 ABOUT = {"translate": np.array([[1.0, 0, 7], [0, 1, -4]]), "scale": np.array([[1.5, 0, -20], [0, 1, 0]])}
@@ -30,7 +31,7 @@ def setup(scene):
 @pytest.mark.parametrize("kind", ABOUT)
 def test_a_start_reproduces_the_guess(setup, kind):
     guess = hint_matrices(3, {0: ABOUT[kind], 1: ABOUT[kind]})
-    state = hinted_state(setup.setting, guess)
+    state = hinted_state(setup.setting, State(("N",) * 3), guess)
     assert state.modes[1] == "W:0"  # what moves alike moves as one
     bodies = build_candidate(setup.setting, state, setup.sizes).bodies
     z = hinted_start(state, bodies, guess)

@@ -86,7 +86,7 @@ class CoherentSearch:
         if self.guess is None:
             return
         setting, sizes = self.setup.setting, self.setup.sizes
-        for state in (*states[:BEGUN], hinted_state(setting, self.guess)):
+        for state in (*states[:BEGUN], hinted_state(setting, states[0], self.guess)):
             roomy = replace(sizes, bodies=static_size(len(body_roots(state)), BODIES, "moving parts"))
             yield state, hinted_start(state, build_candidate(setting, state, roomy).bodies, self.guess)
 

@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Float
 
 from iconjax.search.candidate import Setting, body_roots
-from iconjax.search.motion import STILL_PX, measure_motion, same_motion
+from iconjax.search.motion import STILL_PX, measure_motion
 from iconjax.search.state import Mode, State
 from iconjax.solve.pose import Bodies
 
@@ -19,6 +19,8 @@ BEGUN = 8
 """Initial states that also begin at the guess."""
 TIE = 0.05
 """Costs closer than this are equal: the one nearer to the guess wins."""
+ALIKE = 0.012
+"""Guesses that differ by less than this share of the picture are meant to be one motion."""
 TURNED_DEG, SCALED = 1.0, 0.02
 """A guess that turns or scales by less than this means no rotation or no scaling."""
 
@@ -34,20 +36,32 @@ def hint_matrices(count: int, guesses: Mapping[int, Float[np.ndarray, "2 3"]]) -
     return out
 
 
-def hinted_state(setting: Setting, guess: Float[np.ndarray, "n 6"]) -> State:
-    """Every guessed segment free in the ways it was guessed to move; what moves alike moves as one."""
-    facts = setting.facts
+def hinted_state(setting: Setting, asked: State, guess: Float[np.ndarray, "n 6"]) -> State:
+    """The state `asked`, in which only what the request names is free, with everything else that was guessed to move
+    free in the ways it was guessed to; what moves alike within a few pixels moves as one."""
+    facts, intent = setting.facts, setting.intent
     motion = measure_motion(guess, facts.features)
-    moved = motion.shift > STILL_PX * setting.size / 512
-    modes: list[Mode] = ["N"] * len(guess)
-    for i in sorted(np.flatnonzero(moved), key=lambda k: -facts.area[k]):
-        leader = next((j for j in range(len(modes)) if modes[j][0] == "T" and same_motion(guess[i], guess[j])), None)
-        if leader is not None:
-            modes[i] = f"W:{leader}"
-        elif i not in setting.intent.fixed:
+    named = {i for thing in intent.things for i in thing.members}
+    modes = list(asked.modes)
+    free = [i for i in np.flatnonzero(motion.shift > STILL_PX * setting.size / 512) if i not in named | intent.fixed]
+    leaders = [i for i in range(len(modes)) if asked.root(i) == i and modes[i] != "N"]
+    for i in sorted(free, key=lambda k: -facts.area[k]):
+        if modes[i].startswith("W:"):
+            continue  # a detail goes with its host
+        alike = [j for j in leaders if _apart(guess[i], guess[j], facts.features[i]) < ALIKE * setting.size]
+        if alike:
+            modes[i] = f"W:{alike[0]}"
+        else:
             turn = "R" if abs(motion.turn[i]) > TURNED_DEG else ""
             modes[i] = "T" + turn + _scale_kind(guess[i].reshape(2, 3)[:, :2])
+            leaders.append(int(i))
     return State(tuple(modes), {}, "as guessed")
+
+
+def _apart(a: Float[np.ndarray, "6"], b: Float[np.ndarray, "6"], box: Float[np.ndarray, "6"]) -> float:
+    """How far two transforms carry the corners of a segment's box apart, px."""
+    corners = np.array([[x, y, 1.0] for x in box[[0, 2]] for y in box[[3, 5]]])
+    return float(np.linalg.norm(corners @ (a - b).reshape(2, 3).T, axis=1).max())
 
 
 def _scale_kind(linear: Float[np.ndarray, "2 2"]) -> Mode:
@@ -77,8 +91,4 @@ def distance(
     matrices: Float[np.ndarray, "n 6"], guess: Float[np.ndarray, "n 6"], features: Float[np.ndarray, "n 6"]
 ) -> float:
     """Mean over segments of how far a corner of its box lies from where the guess puts it, px."""
-    x0, _, x1, y0, _, y1 = features.T
-    corners = np.stack([[x0, y0], [x1, y0], [x1, y1], [x0, y1]]).transpose(2, 0, 1)
-    off = (matrices - guess).reshape(-1, 2, 3)
-    gap = np.einsum("nij,nkj->nki", off[:, :, :2], corners) + off[:, None, :, 2]
-    return float(np.linalg.norm(gap, axis=-1).max(1).mean())
+    return float(np.mean([_apart(m, g, f) for m, g, f in zip(matrices, guess, features, strict=True)]))
