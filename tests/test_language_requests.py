@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ast
 import json
 import time
 from contextlib import suppress
@@ -13,22 +12,11 @@ import numpy as np
 import pytest
 
 from iconjax.errors import TranslationError
+from iconjax.language.canonical import canonical
 from iconjax.language.offline import OfflineTranslator
 from iconjax.scene.types import Scene, Segment
 
 DATA = json.loads((Path(__file__).parent / "data" / "requests.json").read_text(encoding="utf-8"))
-SYMMETRIC = {
-    "equal",
-    "plus",
-    "mul",
-    "union",
-    "min_dist",
-    "angle",
-    "together",
-    "parallel",
-    "perpendicular",
-    "touch",
-}
 
 
 def make_scene(shapes: dict[str, Any], size: int = 512) -> Scene:
@@ -48,27 +36,6 @@ def make_scene(shapes: dict[str, Any], size: int = 512) -> Scene:
 
 
 SCENES = {name: make_scene(shapes) for name, shapes in DATA["scenes"].items()}
-
-
-def canonical(line: str) -> Any:
-    """A call in a form that is equal for equal meanings."""
-    return _canonical(ast.parse(line, mode="eval").body)
-
-
-def _canonical(node: ast.expr) -> Any:
-    match node:
-        case ast.Call(func=ast.Name(id=name), args=args):
-            inner = [_canonical(a) for a in args]
-            return (name, *(sorted(inner, key=repr) if name in SYMMETRIC else inner))
-        case ast.Constant(value=str(text)):
-            return text
-        case ast.Constant(value=value):
-            return round(float(value), 3)  # type: ignore[arg-type]
-        case ast.UnaryOp(operand=operand):
-            return -_canonical(operand)
-        case ast.List(elts=elements):
-            return ("point", *map(_canonical, elements))
-    raise AssertionError(ast.dump(node))
 
 
 def translate(scene: str, request: str) -> tuple[str, ...]:

@@ -11,9 +11,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from test_language_requests import canonical, make_scene
+from test_language_requests import make_scene
 
 from iconjax.errors import TranslationError
+from iconjax.language.canonical import canonical
 from iconjax.language.offline import OfflineTranslator
 
 DATA = json.loads((Path(__file__).parent / "data" / "requests_2.json").read_text(encoding="utf-8"))

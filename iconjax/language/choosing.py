@@ -53,7 +53,14 @@ class Chooser:
             found = said or self._nth(found, phrase)
         for modifier in unsaid:
             found = self._extreme(found, modifier, phrase)
-        return self._posed(found, phrase)
+        return self._posed(self._plainest(found, phrase), phrase)
+
+    def _plainest(self, found: list[Entity], phrase: Phrase) -> list[Entity]:
+        """Of things that all have what a phrase says, the one that says nothing more: the top leaf."""
+        if len(found) < 2 or phrase.plural or not phrase.modifiers:
+            return found
+        extra = [len(e.part_words) for e in found]
+        return [found[extra.index(min(extra))]] if extra.count(min(extra)) == 1 else found
 
     def doubt(self, phrase: Phrase, found: list[Entity]) -> list[Entity]:
         """The one of several things that was chosen beforehand.

@@ -21,7 +21,8 @@ def check_values(program: Sequence[str]) -> None:
             left, right = call.args
             offset = ""
             if isinstance(left, ast.Call) and ast.unparse(left.func) == "minus" and _is_known(left.args[1]):
-                left, offset = left.args[0], ast.unparse(left.args[1])  # "a - b is c": a is b + c
+                offset = ast.unparse(left.args[1])  # "a - b is c": a is b + c
+                left = left.args[0]
             if _is_known(right):
                 value = (ast.unparse(right), offset)
                 if told.setdefault(ast.unparse(left), value) != value:

@@ -24,6 +24,7 @@ class Context:
         last: the last phrase with a noun in the place of a theme, for "the right one".
         verbs: verbs of the last clause that had some, for clauses without.
         direction: direction that an "until" clause inherits.
+        sign: 1 where the last change of size was one to larger, -1 to smaller.
         complained: extent of which the clause before said that it is wrong.
     """
 
@@ -34,6 +35,7 @@ class Context:
     verbs: list[Entry] = field(default_factory=list)
     direction: str = ""
     complained: str = ""
+    sign: int = 0
     used: set[str] = field(default_factory=set)
 
     def remember(self, theme: Sequence[str], references: Sequence[tuple[str, ...]]) -> None:

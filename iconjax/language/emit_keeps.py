@@ -48,6 +48,8 @@ def keep(out: Collector, clause: Clause) -> None:
 
 def keep_relation(out: Collector, clause: Clause, name: str) -> None:
     for other in clause.reference:
+        if out.within(other, name):
+            continue  # "the lamp, with its shade": what it has it keeps
         s, t, kind = quoted(name), region(clause.side, quoted(other)), clause.relation
         within = kind == "inside" and not out.shapes.lies(name, "inside", other)
         if kind in ("on", "touch", "reach", "around") or within:

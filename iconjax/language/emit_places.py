@@ -100,16 +100,12 @@ def related(out: Collector, clause: Clause, name: str, other: str) -> None:
             pass
         case "inside" | "overlap":
             out.add(call(kind, s, region(clause.side, t)))
-        case "outside":
-            outside(out, clause, name, other)
         case "across":
             across(out, name, other)
         case "centered" | "centered_h" | "same_place":
             centre(out, kind, name, other)
-        case "beside":
-            beside(out, clause, name, other)
-        case "away" | "toward":
-            nearer(out, clause, name, other)
+        case _ if kind in BY_SIDE:
+            BY_SIDE[kind](out, clause, name, other)
         case _:
             raise TranslationError(f'"{kind}" is not understood here')
 
@@ -119,6 +115,9 @@ def outside(out: Collector, clause: Clause, name: str, other: str) -> None:
     out.add(call("detach", quoted(name), region(clause.side, quoted(other))))
     if clause.direction in AWAY and other != "canvas":
         out.add(call(AWAY[clause.direction], quoted(name), quoted(other)))
+
+
+BY_SIDE = {"outside": outside, "beside": beside, "away": nearer, "toward": nearer}
 
 
 def grounded(out: Collector, clause: Clause) -> None:

@@ -92,7 +92,7 @@ def nearer(out: Collector, clause: Clause, name: str, other: str) -> None:
     sign = 1 if clause.relation == "away" else -1
     amount = clause.amount
     if amount is not None and amount.unit in ("px", "none"):
-        return stepped(out, name, other, sign * amount.value)
+        return stepped(out, clause, name, other, sign * amount.value)
     if amount is None or amount.vague:
         aim = call("mul", 1 + sign * 0.5, old)
     else:
@@ -103,10 +103,14 @@ def nearer(out: Collector, clause: Clause, name: str, other: str) -> None:
     return None
 
 
-def stepped(out: Collector, name: str, other: str, away: float) -> None:
+def stepped(out: Collector, clause: Clause, name: str, other: str, away: float) -> None:
     """Some px towards or away from another thing, along the axis on which it lies further off."""
     offsets = [a - b for a, b in zip(out.shapes.centre(name), out.shapes.centre(other), strict=True)]
     axis = 0 if abs(offsets[0]) >= abs(offsets[1]) else 1
+    if clause.side in ("left", "right", "top", "bottom"):  # "10 px closer to the left edge"
+        axis = 0 if clause.side in ("left", "right") else 1
+        edge = out.shapes.box(other)[{"left": 0, "top": 1, "right": 2, "bottom": 3}[clause.side]]
+        offsets[axis] = out.shapes.centre(name)[axis] - edge
     centre, s = f"center_{'xy'[axis]}", quoted(name)
     moved = call("minus", call(centre, s), call(centre, call("old", s)))
     out.equal(moved, away if offsets[axis] > 0 else -away)

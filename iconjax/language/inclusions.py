@@ -83,14 +83,10 @@ def _included(words: list[str], at: int, lexicon: Lexicon, names: Names) -> list
         return words
     ending = next((e for e in ENDINGS if tuple(words[listed.end : listed.end + len(e)]) == e), ())
     end = listed.end + len(ending)
-    if not _ends(words, end) or not (
-        ending
-        or (opening and opening != ("with",))
-        or (words[at] == "," and not opening and at in (host[2], host[2] + 1))
-    ):
-        return words
     inside, others = _sorted(listed, host[0], names)
-    if not inside and not others:
+    said = bool(ending) or (bool(opening) and (opening != ("with",) or not others))
+    apposed = words[at] == "," and not opening and at in (host[2], host[2] + 1)
+    if not _ends(words, end) or not (said or apposed) or not (inside or others):
         return words
     if others and not (ending or opening):
         return words  # an apposition says nothing of other things
@@ -176,7 +172,8 @@ def _before(words: Sequence[str], at: int, lexicon: Lexicon, names: Names) -> tu
     """What the first thing named before `at` means, and where it stands."""
     reader = PhraseReader(words[:at], lexicon, names)
     start = max((i + 1 for i in range(at) if words[i] in (".", ";", "!", "?")), default=0)
-    for i in range(start, at):
+    verbs = [i + 1 for i in range(start, at) if any(e.value != "make" for e in lexicon.entries(words[i], "verb"))]
+    for i in (*(j for v in verbs[-1:] for j in range(v, at)), *range(start, at)):
         got = reader.read(i)
         if got is None or not got[0].nouns or (i and words[i - 1] == "of"):
             continue

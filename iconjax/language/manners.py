@@ -30,6 +30,7 @@ def plain(words: Sequence[str], lexicon: Lexicon, names: Names) -> list[str]:
         multiplied,
         as_they_are,
         _backward,
+        _particles,
         _counts,
         _without_fillers,
         _each,
@@ -42,8 +43,10 @@ def _portions(words: list[str], lexicon: Lexicon, names: Names) -> list[str]:
     """ "Two bits of bread" are two breads."""
 
     def step(i: int) -> tuple[list[str], int] | None:
-        portion = lexicon.knows(lexicon.singular(words[i]), {"portion"}) and names.hear(words[i]) is None
+        portion = lexicon.knows(lexicon.singular(words[i]), {"portion"})
         noun = words[i + 2] if words[i + 1 : i + 2] == ["of"] and i + 2 < len(words) else ""
+        if lexicon.singular(words[i]) in names.vocabulary:
+            return None
         if not portion or not noun or names.hear(noun) is None:
             return None
         plural = lexicon.singular(words[i]) != words[i] and lexicon.singular(noun) == noun
@@ -140,6 +143,19 @@ def _backward(words: list[str], lexicon: Lexicon, names: Names) -> list[str]:
     return scan(words, step)
 
 
+def _particles(words: list[str], lexicon: Lexicon, names: Names) -> list[str]:
+    """ "Pull the plunger out by 20 px to the left" without "out", as the direction is said."""
+    directed = {"left", "right", "up", "down", "leftwards", "rightwards", "upwards", "downwards"} & set(words)
+
+    def step(i: int) -> tuple[list[str], int] | None:
+        after = words[i + 1] if i + 1 < len(words) else "."
+        ends = after in ("by", "to", ",", ".", ";") or after[0].isdigit()
+        moves = any(e.value == "move" for w in words[:i] for e in lexicon.entries(w, "verb"))
+        return ([], i + 1) if words[i] in ("out", "in") and i and directed and ends and moves else None
+
+    return scan(words, step)
+
+
 def _counts(words: list[str], lexicon: Lexicon, names: Names) -> list[str]:
     """ "The 2 handles" are two; "2 px" stay what they are."""
 
@@ -147,9 +163,9 @@ def _counts(words: list[str], lexicon: Lexicon, names: Names) -> list[str]:
         if not words[i].isdigit() or not 1 < int(words[i]) <= MOST_COUNT or i + 1 >= len(words):
             return None
         after = words[i + 1]
-        plural = lexicon.singular(after) != after and names.hear(after) is not None
-        described = lexicon.knows(after, {"modifier", "descriptor"}) and i + 2 < len(words)
-        if not plural and not (described and names.hear(words[i + 2]) is not None):
+        leads = names.hear(after) is not None or lexicon.knows(after, {"modifier", "descriptor"})
+        things = [after, *(words[i + 2 : i + 3] if leads else [])]
+        if not any(lexicon.singular(w) != w and names.hear(w) is not None for w in things):
             return None
         spelt = [e for e, entries in lexicon.phrases.items() for x in entries if _is_number(x, words[i])]
         return ([spelt[0][0]], i + 1) if spelt else None

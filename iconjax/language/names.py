@@ -73,6 +73,9 @@ class Names:
             found = self._by_last_noun(phrase, within)
         if not found:
             raise TranslationError(f'there is no "{phrase.text}"{_of(within)} in the picture')
+        if phrase.ignored and not phrase.plural and len(found) == 1:
+            members = self.members_if_collection(found[0].name)
+            found = found if len(members) == 1 else [e for e in self.parts if e.name in members]
         pieces = self._in_pieces(found, phrase)
         found = self.chooser.narrow([group[0] for group in pieces.values()] if pieces else found, phrase)
         if phrase.indefinite is None and len(found) > 1 and not phrase.plural:

@@ -35,6 +35,15 @@ GRAMMAR = frozenset(
     ]
 )
 """Categories that win over a name when nothing announces a noun."""
+PLACED = {
+    ("on", "top"): ("top", 2),
+    ("at", "the", "top"): ("top", 3),
+    ("at", "the", "very", "top"): ("top", 4),
+    ("at", "the", "bottom"): ("bottom", 3),
+    ("at", "the", "very", "bottom"): ("bottom", 4),
+    ("in", "the", "middle"): ("middle", 3),
+}
+"""Places behind a noun that tell like things apart -> the modifier that says the same, and their length."""
 MODAL = frozenset({"make", "let", "have", "want", "should", "must", "shall", "would", "to", "can", "could"})
 MOST_STRANGE = 2
 ANAPHORS = frozenset({"one", "ones", "other", "others"})
@@ -113,6 +122,10 @@ class NounReader:
             got = self.lexicon.match(self.words, i + 2, "modifier")
             if got is not None and got[0].value in ("left", "right", "top", "bottom"):
                 return with_(phrase, ordinal_from=got[0].value), got[1]
+        for place, (modifier, end) in PLACED.items():
+            apart = not phrase.plural and not phrase.modifiers and self.word(i + end) != "of"
+            if tuple(self.words[i : i + end]) == place and apart and len(self.names.like(phrase)) > 1:
+                return with_(phrase, modifiers=(modifier,)), i + end
         where = self.lexicon.match(self.words, i, "direction") if self.word(i) == "on" else None
         if where is None or where[0].value not in ("left", "right") or self.word(where[1]) == "of":
             return phrase, i

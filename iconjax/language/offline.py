@@ -24,6 +24,7 @@ from iconjax.language.lexicon import Lexicon, lexicon
 from iconjax.language.names import Names
 from iconjax.language.readings import Reader
 from iconjax.language.sentence import clauses_of
+from iconjax.language.skipping import speaks_of_space
 from iconjax.language.tidy import tidy
 from iconjax.language.words import mend, split_hyphens, tokenise
 from iconjax.scene.types import Scene
@@ -64,7 +65,10 @@ class OfflineTranslator:
             if self.readings > 1:
                 self._choose(request, scene, search.names, found)
             if not found:
-                refused = refusal(str(error), search.understood, search.unknown, scene.names, scene.objects)
+                reason = str(error)
+                if "iconjax" not in reason and not speaks_of_space(search.words, lexicon(), search.names):
+                    reason += "; iconjax moves, turns and scales what is in the picture"
+                refused = refusal(reason, search.understood, search.unknown, scene.names, scene.objects)
                 raise TranslationError(refused) from None
         first, *_ = found
         several = tuple(Reading(r.gloss, r.program) for r in found) if len(found) > 1 else ()

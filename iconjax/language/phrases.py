@@ -50,7 +50,7 @@ class PhraseReader(NounReader):
 
     def _told_apart(self, phrase: Phrase, i: int) -> tuple[Phrase, int]:
         """ "The band | on the cup": of several bands the one that is there, where it is one."""
-        if phrase.owner or phrase.plural or phrase.side or not phrase.nouns or phrase.modifiers or phrase.ordinal:
+        if phrase.owner or phrase.side or not phrase.nouns or phrase.modifiers or phrase.ordinal:
             return phrase, i
         relation = self.lexicon.match(self.words, i, "relation")
         if relation is None or relation[0].value not in TELLING or len(self.names.like(phrase)) < 2:
@@ -72,6 +72,8 @@ class PhraseReader(NounReader):
         if len(others) != 1:
             return []
         own = [n for n in like if kind in ("on", "inside", "touch") and shapes.part_of(n, others[0])]
+        if phrase.plural:
+            return [whole] if own and len(own) < len(like) else []  # "the boxes in the upper row"
         there = own or [n for n in like if shapes.lies(n, kind, others[0]) and not shapes.part_of(n, others[0])]
         if len(there) != 1 or ":" not in there[0]:
             return []

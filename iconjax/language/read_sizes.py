@@ -11,6 +11,8 @@ from iconjax.language.frames import Change, Slots
 from iconjax.language.names import Reference
 from iconjax.language.reading import followed, is_own, listed
 
+BARE = 0.4
+"""A share without "by" or "to" up to which it is more likely one of change ("the boot 20 %")."""
 SIDES = {"left": ("right", "left"), "right": ("left", "right"), "up": ("bottom", "top"), "down": ("top", "bottom")}
 """Direction -> the sides that stay where a thing grows and where it shrinks that way."""
 
@@ -112,6 +114,9 @@ def changed(
 ) -> Iterator[Clause]:
     """One change of one extent (or of the overall size)."""
     amount, sign = change.amount, change.sign or int(str(info.get("sign", 0)))
+    if not sign and amount is not None and amount.mode == "by" and slots.connector in ("and", ",", "&"):
+        sign = context.sign  # "shorter by a third, and by a quarter in width"
+    context.sign = sign
     dim = str(info["dim"]) if change.sign == 0 and info.get("dim") and change.dim == "size" else change.dim
     if dim in ("short", "length") and context.complained in ("vert", "hori"):
         dim = context.complained  # "it is too tall, make it shorter"
@@ -210,6 +215,11 @@ def _times(amount: Amount, sign: int, change: Change) -> float | None:
 def _share(amount: Amount, sign: int, change: Change, compared: bool) -> float:
     """A share: of the whole ("to 60 %", "half as wide"), or of change ("by 40 %", "a third wider")."""
     value = amount.value
+    if amount.mode == "by" and not sign and not change.same:
+        raise TranslationError("larger or smaller? the request does not say")
+    bare = not sign and not amount.mode and amount.of is None and not compared and not change.same
+    if bare and value <= BARE:
+        raise TranslationError(f"by {100 * value:g} %, or to {100 * value:g} %? the request does not say")
     of_something = amount.of is not None and not amount.mode and (compared or not (change.sign or sign))
     if change.same or amount.mode == "to" or sign == 0 or of_something:
         return value

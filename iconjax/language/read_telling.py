@@ -104,6 +104,9 @@ class Teller:
             return False
         if self._already(things, relation.kind, target):
             return True
+        if len(things) > 1 and any(self._already((n,), relation.kind, target) for n in things):
+            kind = relation.kind.replace("_", " ")
+            raise TranslationError(f"not all of {listed(things)} are {kind} {listed(tuple(target))}")
         if slots.kinds() == {"scale"} and len(things) == len(target) == 1:
             kind = relation.kind.replace("_", " ")
             raise TranslationError(f"{listed(things)} is not {kind} {listed(target)}")

@@ -12,6 +12,11 @@ from iconjax.language.frames import Relation, Slots
 from iconjax.language.names import Reference
 from iconjax.language.reading import FOLLOWING, TURNED, followed, listed
 
+PULLING = frozenset(
+    {"pull", "push", "nudge", "drag", "tug", "yank", "shove", "kick", "bring", "swing over", "come", "go"}
+)
+"""Verbs of motion that with an angle mean a turn."""
+
 
 def turns(slots: Slots, kinds: set[str]) -> bool:
     amounts = [slots.amount, *(s.amount for s in slots.shifts)]
@@ -53,7 +58,8 @@ def rotate(context: Context, slots: Slots, theme: Reference) -> Iterator[Clause]
     else:
         turn = _by_angle(slots, names, amount, direction)
         if turn.action == "rotate" and amount is not None and not (slots.shifts or slots.relations):
-            slots.verbs = [v for v in slots.verbs if v.value != "move"]  # "pull the lever 12 degrees to the left"
+            # "pull the lever 12 degrees to the left"
+            slots.verbs = [v for v in slots.verbs if v.value != "move" or v.info.get("base") not in PULLING]
         yield replace(turn, manner=turn.manner | ({"together"} if "together" in slots.marks else set()))
     if len(names) > 1 and "together" in slots.marks:
         yield Clause("together", names)

@@ -18,7 +18,7 @@ from iconjax.language.read_telling import Teller
 from iconjax.language.read_turns import rotate, sense_of, turns
 from iconjax.language.reading import FOLLOWING, TURNED, listed
 
-SETTLING = frozenset({"end up", "wind up", "come out", "turn out"})
+SETTLING = frozenset({"end up", "come out", "turn out"})
 """Verbs with which "higher" is a place."""
 
 
@@ -32,6 +32,7 @@ class Reader:
 
     def __init__(self, context: Context) -> None:
         self.context = context
+        self.complete = False  # whether the clause before says by how much something changes
 
     def read(self, slots: Slots) -> list[Clause]:
         """The readings of a clause.
@@ -60,8 +61,9 @@ class Reader:
         if slots.connector in ("so", "so that", "such that") and slots.theme and context.themes:
             guessed = all(c.amount is not None and c.amount.mode == "unsaid" for c in clauses)
             other = theme.side is None and not set(theme.names) & {*context.themes[0], "@theme", "@ground"}
-            if guessed and other:
+            if guessed and (other or self.complete):
                 clauses = [Clause("topic", theme.names)]  # what follows from the change before
+        self.complete = any(c.amount is not None and not c.amount.vague for c in clauses)
         context.remember(theme.names, [c.reference for c in clauses])
         if slots.verbs:
             context.verbs = slots.verbs

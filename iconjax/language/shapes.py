@@ -81,8 +81,8 @@ class Shapes:
         wide, high = self.size(name)
         if dim == "thick":
             # "thin" says little of a round thing; people mean its width then
-            return "vert_len" if wide > 1.5 * high else "hori_len"
-        if dim == "length" and wide < 2 * high and stands(name):
+            return "vert_len" if wide > 1.25 * high else "hori_len"
+        if dim in ("length", "short") and wide < 2 * high and stands(name):
             return "vert_len"  # legs are as long as they are high
         upright = high > wide * (1.0 if dim == "length" else 0.9)
         return "vert_len" if upright else "hori_len"

@@ -36,10 +36,11 @@ SMALL = frozenset({"a", "an", "one", "no", "only", "just", "all", "too", "like",
 def without_stories(words: Sequence[str], lexicon: Lexicon, names: Names) -> list[str]:
     """The words without clauses that only tell a story; what was left aside is noted."""
     view = _View(lexicon, names)
+    words = view.without_adjunct(words)
     parts = _parts(words)
     kinds = []
     for at, (mark, part) in enumerate(parts):
-        heading = at == 0 and len(parts) > 1 and parts[1][0][:1] != [","]
+        heading = at == 0 and len(parts) > 1 and (parts[1][0][:1] != [","] or parts[1][0][1:] == ["so"])
         colon = at + 1 < len(parts) and parts[at + 1][0] == [":"]
         kinds.append(view.kind(part, heading, bool(set(mark) & {"so", "like"}), colon))
     if "story" not in kinds or "instruction" not in kinds:
@@ -57,7 +58,15 @@ def without_stories(words: Sequence[str], lexicon: Lexicon, names: Names) -> lis
         names.notes.append(f'left aside: "{" ".join(part)}"')
         if back:
             out.extend([*mark, *topic] if out else topic)
+            if at + 1 < len(parts) and parts[at + 1][0][:1] == [","]:
+                parts[at + 1] = ([":"], parts[at + 1][1])  # "the vane looks stunted, so stretch it"
     return out
+
+
+def speaks_of_space(words: Sequence[str], lexicon: Lexicon, names: Names) -> bool:
+    """Whether anything in a request is about place, pose or size."""
+    view = _View(lexicon, names)
+    return any(view.spatial(part, i, heading=False) for _, part in _parts(words) for i in range(len(part)))
 
 
 def _parts(words: Sequence[str]) -> list[tuple[list[str], list[str]]]:
@@ -91,12 +100,18 @@ class _View:
         """
         strange = [w for i, w in enumerate(part) if self.strange(w) and not self._in_phrase(part, i)]
         strange = [w for w in strange if not self._names_next(part, part.index(w))]  # "the electric | guitar"
-        spatial = any(self._spatial(part, i, heading) for i in range(len(part)))
+        spatial = any(self.spatial(part, i, heading) for i in range(len(part)))
         looks = heading and any(self.lexicon.knows(w, {"appear"}) for w in part) and not self._measured(part)
         short = looks or (heading and colon and len(part) <= SHORT and not self._measured(part))
+        doing = any(self.lexicon.knows(w, {"verb"}) or _touches(self.lexicon, w) for w in part)
+        if heading and strange and not doing and part[0] in DETERMINERS and self._of_strangers(part):
+            return ""  # "the gizmo of the lamp: ..." is what the rest is about
+        if heading and len(part) == 1 and self.names.hear(part[0]) is None:
+            return "story"  # "storm!"
         if strange and (short or not spatial or ((heading or follows) and self._of_strangers(part))):
             return "story"
-        if not spatial and part and self.lexicon.knows(part[-1], {"descriptor"}):
+        links = any(e.value == LINKING for w in part for e in self.lexicon.entries(w, "verb"))
+        if not spatial and links and self.lexicon.knows(part[-1], {"descriptor"}):
             return "story"  # "big eyes are cute"
         if heading and self._exclaims(part) and not self._measured(part):
             return "story"  # "such a big blossom on such a small plant!"
@@ -137,7 +152,7 @@ class _View:
         kinds = {e.category for e in self.lexicon.phrases.get((word,), ())}
         return bool(kinds) and kinds <= THINGS
 
-    def _spatial(self, part: Sequence[str], i: int, heading: bool) -> bool:
+    def spatial(self, part: Sequence[str], i: int, heading: bool) -> bool:
         """Whether the word at `i` says something about place, pose or size of what the picture shows."""
         word = part[i]
         if word.isdigit() or word in ("not", "never", "without", "no"):
@@ -187,6 +202,17 @@ class _View:
         told = first > 0 and self.strange(part[first]) and len(part) > first + 1
         return told and not heavy and not any(w.isdigit() or w in ("not", "never", "without") for w in part)
 
+    def without_adjunct(self, words: Sequence[str]) -> Sequence[str]:
+        """The words without "in the wind" or "for the party" at the end of what says its own amount."""
+        last = len(words) - (words[-1:] in (["."], ["!"], ["?"]))
+        for i in range(max(1, last - 3), last - 1):
+            strange = self.strange(words[last - 1]) and not self._things_only(words[last - 1])
+            between = all(w in DETERMINERS for w in words[i + 1 : last - 1])
+            if words[i] in ("in", "for", "during") and strange and between and self._measured(words[:i]):
+                self.names.notes.append(f'left aside: "{" ".join(words[i:last])}"')
+                return [*words[:i], *words[last:]]
+        return words
+
     def topic(self, part: Sequence[str]) -> list[str]:
         """The first thing of the picture that a clause names, with its modifiers."""
         for i, word in enumerate(part):
@@ -196,6 +222,7 @@ class _View:
             start = i
             while start > 0 and self.lexicon.knows(part[start - 1], {"modifier", "ordinal"}):
                 start -= 1
+            start -= start > 0 and self.strange(part[start - 1])  # "the filing cabinet"
             end = i + 1
             while end < len(part) and self.names.hear(part[end]) is not None:
                 end += 1
@@ -210,3 +237,8 @@ class _View:
             if self.names.hear(word) is not None and not self.lexicon.knows(word, {"verb", "adjective", "direction"}):
                 return False
         return True
+
+
+def _touches(lexicon: Lexicon, word: str) -> bool:
+    """Whether a relation is said by a verb: "hits", "reaches"."""
+    return any(e.value in ("touch", "reach") for e in lexicon.entries(word, "relation"))

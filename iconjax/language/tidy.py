@@ -36,7 +36,12 @@ def _with_senses(clauses: list[Clause]) -> list[Clause]:
     for clause in clauses:
         last = out[-1] if out else None
         guessed = clause.amount is not None and clause.amount.mode == "unsaid"
-        open_ = last is not None and last.action == "rotate" and not last.direction and last.theme == clause.theme
+        open_ = (
+            last is not None
+            and last.action == "rotate"
+            and last.direction in ("", "up", "down")
+            and last.theme == clause.theme
+        )
         if last is not None and open_ and clause.action == "rotate" and guessed and clause.direction in ("cw", "ccw"):
             out[-1] = replace(last, direction=clause.direction)
         else:

@@ -36,6 +36,9 @@ def _unnamed(word: str, lexicon: Lexicon, names: Names) -> bool:
     ):
         return False
     nouns = names.hear(word) or ()
+    akin = any(len(v) > 3 and word != v and word.endswith(v) for v in names.vocabulary)
+    if not nouns and not akin and len(names.scene.objects) > 1:
+        return False  # it may be any one of them
     tails = any(word != t and word.endswith(t) for n in nouns for sense in names.hearing.senses(n) for t in sense)
     return tails or not nouns or not names.like(Phrase(word, nouns=nouns))
 

@@ -12,6 +12,7 @@ def tokenise(request: str) -> list[str]:
     """Split a request into words, numbers, units and punctuation; quotes and brackets vanish."""
     text = request.lower().replace("\u2019", "'").replace("\u2018", "'").replace("\u2212", "-")
     text = re.sub(r"[-=]+>|\u2192|\u21d2", " : ", text)
+    text = re.sub(r"\bi\.e\.?,?", " that is ", text)
     text = re.sub(r":=", " = ", text)
     for mark, fraction in FRACTIONS.items():
         text = text.replace(mark, f" {fraction} ")
