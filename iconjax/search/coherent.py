@@ -14,7 +14,7 @@ from iconjax.search.candidate import body_roots, build_candidate, members_of
 from iconjax.search.config import SearchConfig
 from iconjax.search.cost import Judge, Judgement
 from iconjax.search.flips import flips
-from iconjax.search.hints import BEGUN, TIE, distance, hinted_start, hinted_state
+from iconjax.search.hints import BEGUN, TIE, TIE_SHARE, distance, hinted_start, hinted_state
 from iconjax.search.motion import STILL_PX, measure_motion
 from iconjax.search.setup import BODIES, Setup, static_size
 from iconjax.search.starts import initial_states
@@ -95,7 +95,7 @@ class CoherentSearch:
         guess = self.guess
         if guess is None:
             return ranked[0]
-        equal = [t for t in ranked if t.cost <= ranked[0].cost + TIE]
+        equal = [t for t in ranked if t.cost <= (1 + TIE_SHARE) * ranked[0].cost + TIE]
         features = self.setup.setting.facts.features
         return min(equal, key=lambda t: distance(t.matrices, guess, features))
 

@@ -17,8 +17,9 @@ from iconjax.solve.pose import Bodies
 
 BEGUN = 8
 """Initial states that also begin at the guess."""
-TIE = 0.05
-"""Costs closer than this are equal: the one nearer to the guess wins."""
+TIE, TIE_SHARE = 0.05, 0.15
+"""Costs that differ by less than this, plus this share of the least, are as good as equal: the one nearer to the guess
+wins."""
 ALIKE = 0.012
 """Guesses that differ by less than this share of the picture are meant to be one motion."""
 TURNED_DEG, SCALED = 1.0, 0.02
