@@ -7,8 +7,11 @@ from itertools import combinations
 import numpy as np
 
 from iconjax.search.evidence import Evidence, Terms
-from iconjax.search.motion import STILL_PX, same_motion
+from iconjax.search.motion import STILL_PX, corner_distance, same_motion
 from iconjax.search.state import scale_kind
+
+ALONG = 0.35
+"""What is left behind by less than this share of its own way goes along."""
 
 
 def unasked_costs(e: Evidence) -> Terms:
@@ -47,6 +50,30 @@ def _groups(e: Evidence) -> list[list[int]]:
     return groups
 
 
+def _dragged(e: Evidence) -> float:
+    """How much a part drags the whole picture along, 0 to 1: what goes more or less along is larger than what was asked
+    to move, and little stays behind.
+
+    Who asks for a part to move means: against the rest. What takes the rest along has not moved at all.
+    """
+    area, asked = e.case.facts.area, e.case.asked_segments
+    leading = [i for i in asked if e.case.asked[i] <= {"translate", "rotate"} and e.moved(i)]
+    rest = 1.0 - float(area[asked].sum())
+    if not leading or rest < 1e-6:
+        return 0.0
+    first = e.matrices[max(leading, key=lambda i: area[i])]
+    along = [
+        i
+        for i in range(len(area))
+        if e.moved(i)
+        and not e.case.asked[i]
+        and corner_distance(e.matrices[i], first, e.case.facts.features[i]) < ALONG * e.motion.shift[i]
+    ]
+    dragged = float(area[along].sum())
+    larger = np.clip(dragged / float(area[leading].sum()) - 1, 0, 1)
+    return float(larger * np.clip((dragged / rest - 0.5) / 0.3, 0, 1))
+
+
 def _borne(e: Evidence, members: list[int]) -> bool:
     """Whether the members follow, without turning or changing size, the very place of an asked part of their own object
     that they are fixed to."""
@@ -80,6 +107,8 @@ def _carried_off(e: Evidence, i: int, along: bool) -> Terms:
     if turn > 0.3:
         weight = costs.turned * (2 * area if along else 1.0) + (costs.hung if case.facts.hung[i] else 0.0)
         yield "turned", weight * min(1.0, turn / 10)
+    if case.facts.grounded[i] and turn > 3:
+        yield "tipped", costs.tipped * min(1.0, turn / 10)
     if case.facts.grounded[i]:
         weight = costs.uprooted * (0.5 if along else 1.0) * (1 + min(1.0, turn / 10))
         yield "uprooted", weight * min(1.0, e.lifted(i) / 20)
@@ -125,6 +154,7 @@ def asked_costs(e: Evidence) -> Terms:
     for i, j in combinations(turning, 2):
         apart = float(abs(turn[i] - turn[j]))
         yield "uneven", costs.uneven * min(1.0, apart / 10) if apart > 0.5 else 0.0
+    yield "dragged", costs.dragged * _dragged(e)
     drifts = [_drift(e, i) for i in asked if case.asked[i] == {"scale"}]
     yield "drift", costs.drift * min(1.0, max(drifts, default=0.0) / 20)
     for i in asked:

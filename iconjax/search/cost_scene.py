@@ -23,6 +23,12 @@ def surrounding_costs(e: Evidence) -> Terms:
 
 def _misaligned(e: Evidence, a: Alignment) -> float:
     case = e.case
+    if (
+        a.b is not None
+        and a.reason == "siblings"
+        and ("translate" in case.asked[a.a]) != ("translate" in case.asked[a.b])
+    ):
+        return 0.0  # one of a row is asked to leave it
     still = not e.moved(a.a) if a.b is None else same_motion(e.matrices[a.a], e.matrices[a.b])
     if still:
         return 0.0

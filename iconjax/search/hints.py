@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Float
 
 from iconjax.search.candidate import Setting, body_roots
-from iconjax.search.motion import STILL_PX, measure_motion
+from iconjax.search.motion import STILL_PX, corner_distance, measure_motion
 from iconjax.search.state import Mode, State
 from iconjax.solve.pose import Bodies
 
@@ -49,7 +49,7 @@ def hinted_state(setting: Setting, asked: State, guess: Float[np.ndarray, "n 6"]
     for i in sorted(free, key=lambda k: -facts.area[k]):
         if modes[i].startswith("W:"):
             continue  # a detail goes with its host
-        alike = [j for j in leaders if _apart(guess[i], guess[j], facts.features[i]) < ALIKE * setting.size]
+        alike = [j for j in leaders if corner_distance(guess[i], guess[j], facts.features[i]) < ALIKE * setting.size]
         if alike:
             modes[i] = f"W:{alike[0]}"
         else:
@@ -57,12 +57,6 @@ def hinted_state(setting: Setting, asked: State, guess: Float[np.ndarray, "n 6"]
             modes[i] = "T" + turn + _scale_kind(guess[i].reshape(2, 3)[:, :2])
             leaders.append(int(i))
     return State(tuple(modes), {}, "as guessed")
-
-
-def _apart(a: Float[np.ndarray, "6"], b: Float[np.ndarray, "6"], box: Float[np.ndarray, "6"]) -> float:
-    """How far two transforms carry the corners of a segment's box apart, px."""
-    corners = np.array([[x, y, 1.0] for x in box[[0, 2]] for y in box[[3, 5]]])
-    return float(np.linalg.norm(corners @ (a - b).reshape(2, 3).T, axis=1).max())
 
 
 def _scale_kind(linear: Float[np.ndarray, "2 2"]) -> Mode:
@@ -92,4 +86,4 @@ def distance(
     matrices: Float[np.ndarray, "n 6"], guess: Float[np.ndarray, "n 6"], features: Float[np.ndarray, "n 6"]
 ) -> float:
     """Mean over segments of how far a corner of its box lies from where the guess puts it, px."""
-    return float(np.mean([_apart(m, g, f) for m, g, f in zip(matrices, guess, features, strict=True)]))
+    return float(np.mean([corner_distance(m, g, f) for m, g, f in zip(matrices, guess, features, strict=True)]))

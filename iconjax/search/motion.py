@@ -44,3 +44,9 @@ def measure_motion(matrices: Float[np.ndarray, "n 6"], features: Float[np.ndarra
 def same_motion(a: Float[np.ndarray, "6"], b: Float[np.ndarray, "6"], tolerance: float = 1e-3) -> bool:
     """Whether two transforms are one, within `tolerance` of each entry."""
     return bool(np.abs(a - b).max() <= tolerance)
+
+
+def corner_distance(a: Float[np.ndarray, "6"], b: Float[np.ndarray, "6"], box: Float[np.ndarray, "6"]) -> float:
+    """How far two transforms carry the corners of a segment's box apart, px."""
+    corners = np.array([[x, y, 1.0] for x in box[[0, 2]] for y in box[[3, 5]]])
+    return float(np.linalg.norm(corners @ (a - b).reshape(2, 3).T, axis=1).max())

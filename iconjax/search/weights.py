@@ -118,10 +118,12 @@ class Costs:
         rooted: factor on that area for what stands on the ground.
         freedom: for each degree of freedom and each relation let go: of equal results the simplest explanation wins.
         along: the same where it goes along with something that was asked to move.
+        dragged: a part that was asked to move or turn takes nearly everything along.
         turned, stretched: added where it turns or changes size; `squashed` where a disc loses its shape.
         hung: added where something turns that hangs from what moves.
         uprooted: something that stood on the ground leaves it; `asked_uprooted` where it was only asked to change size.
         drift: what is asked to change size, and nothing else, goes sideways by 20 pixels or more.
+        tipped: what stands on the ground is turned by 10 degrees or more though nobody asked.
         extra: an unasked kind of motion of an asked part.
         idle_specifier: a kind of motion that was asked and did not happen.
         amount: for each pixel that asked parts move on average: of equal solutions the smaller change wins.
@@ -158,6 +160,7 @@ class Costs:
     rooted: float = 1.5
     freedom: float = 0.002
     along: float = 0.3
+    dragged: float = 12.0
     turned: float = 1.5
     stretched: float = 3.0
     squashed: float = 2.0
@@ -165,6 +168,7 @@ class Costs:
     uprooted: float = 1.5
     asked_uprooted: float = 4.0
     drift: float = 0.4
+    tipped: float = 4.0
     extra: float = 3.0
     idle_specifier: float = 8.0
     amount: float = 0.003
