@@ -103,13 +103,13 @@ def test_touch_overlap_and_detach(dx, dy, gap):
         assert residual("touch", a, b) == near(gap, abs=1e-3)
         assert value("touch", a, b) == near(abs(gap), abs=1e-3)
         assert value("overlap", a, b) == near(max(0, gap + 1), abs=1e-3)
-        assert value("detach", a, b) == near(max(0, -gap), abs=1e-3)
+        assert value("detach", a, b) == near(max(0, 1.5 - gap), abs=1e-3)
 
 
 def test_touch_of_what_lies_deep_inside():
     assert value("touch", square(240, 240, 20), SQUARE) == near(40, abs=1e-3)
     assert value("overlap", square(240, 240, 20), SQUARE) == 0
-    assert value("detach", square(240, 240, 20), SQUARE) == near(40, abs=1e-3)
+    assert value("detach", square(240, 240, 20), SQUARE) == near(41.5, abs=1e-3)
 
 
 def test_thin_bars_that_cross_without_a_vertex_in_each_other_overlap():

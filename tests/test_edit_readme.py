@@ -12,6 +12,8 @@ import pytest
 from iconjax.cli import main
 
 ROOT = Path(__file__).parents[1]
+OWN = {"image.png", "picture.png", "parts", "labels.json"}
+"""What the reader brings, or has made by a command before."""
 COMMAND = re.compile(r"(?:^|`|&& )(?:\.venv/bin/)?iconjax ([^`\n]+)", re.MULTILINE)
 
 
@@ -26,13 +28,14 @@ def test_command_is_understood(line):
     command = main.get_command(click.Context(main), name)
     assert command is not None
     params = command.make_context(name, args).params
-    place = params.get("picture") or params.get("folder")
-    if place and place != "image.png":
-        assert (ROOT / place).is_dir()
+    places = [params.get("picture") or params.get("folder"), params.get("labels")]
+    for place in places:
+        if place and place not in OWN:
+            assert (ROOT / place).exists()
 
 
 def test_enough_commands_were_found():
-    assert {c.split()[0] for c in shown_commands()} == {"edit", "translate", "relations", "dsl", "eval"}
+    assert {c.split()[0] for c in shown_commands()} == {"edit", "translate", "relations", "dsl", "eval", "label", "segment"}
 
 
 def test_test_command_is_what_ci_runs():

@@ -19,7 +19,7 @@ INTRA_REACH = 0.05
 separate connected parts by 17 to 23 px of 512."""
 INTER_REACH = 0.012
 """The same between objects, which are separate things unless they (nearly) touch."""
-ALIKE = 24
+ALIKE = 6
 """Largest difference of mean colours (0..255, any channel) in a picture whose segments are all of one colour."""
 GAP_SPREAD = 1.3
 """How much wider than a picture's usual gap one may be that still is a contact between objects of one colour."""

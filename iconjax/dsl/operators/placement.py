@@ -10,19 +10,17 @@ from iconjax.dsl.operators import implements, residual_of, safe
 from iconjax.dsl.operators.attributes import (
     center_x,
     center_y,
-    hori_len,
     long_dir,
     max_x,
     max_y,
     min_x,
     min_y,
-    vert_len,
 )
 from iconjax.dsl.operators.outline import gap, sticking_out
 from iconjax.dsl.operators.safe import Scalar
 from iconjax.dsl.region import Region
 
-VISIBLE = 0.03  # share of the least extent: a gap so wide tells that two things are apart
+APART = 1.5  # pixels: what is separated by less still looks as if it touched
 SHARED = 1.0  # pixels: regions overlap when they reach this deep into each other
 
 
@@ -62,9 +60,8 @@ def overlap(s: Region, t: Region) -> Scalar:
 @residual_of("detach")
 @implements("detach")
 def detach(s: Region, t: Region) -> Scalar:
-    """How far S and T are from a gap that can be seen between them."""
-    extents = [f(r) for r in (s, t) for f in (hori_len, vert_len)]
-    return safe.relu(VISIBLE * jax.lax.stop_gradient(jnp.min(jnp.stack(extents))) - clearance(s, t))
+    """How far S and T are from lying visibly apart."""
+    return safe.relu(APART - clearance(s, t))
 
 
 @residual_of("on_top")
