@@ -26,9 +26,19 @@ from iconjax.relations.detect import detect_relations
 BENCHMARK = Path(__file__).parents[1] / "eval" / "benchmark"
 RECORDINGS = Path(__file__).parents[1] / "eval" / "recordings"
 SOME = (
-    "basket-handles-apart", "telescope-level", "android-short-body", "anvil-hammer", "excavator-boom", "fish-body-shorter",
-    "truck-cargo-shorter", "tulip-leaf-flower", "plane-fuselage-half", "scales-tip", "skate-wheel-back", "mosque-towers",
-)  # fmt: skip
+    "basket-handles-apart",
+    "telescope-level",
+    "android-short-body",
+    "anvil-hammer",
+    "excavator-boom",
+    "fish-body-shorter",
+    "truck-cargo-shorter",
+    "tulip-leaf-flower",
+    "plane-fuselage-half",
+    "scales-tip",
+    "skate-wheel-back",
+    "mosque-towers",
+)
 PAIRS = [("Lamp:Shade", "Lamp:Foot"), ("Lamp:Foot", "Table")]
 
 
@@ -115,10 +125,7 @@ class TestCrucial:
     def test_the_offline_rule_is_nearly_as_good(self):
         """What a vision model answered about ten icons, against the rule that stands in for it.
 
-        The answers were not asked for over the API, and not blind: `docs/language.md` says how they came about.
-
-        The paper's example is among them: two handles that only lie near each other do not hold a basket together.
-        """
+        The answers were not asked for over the API, and not blind: `docs/language.md` says how they came about."""
         same = total = 0
         for case in SOME:
             scene = open_inputs(BENCHMARK / case).scene
@@ -129,8 +136,6 @@ class TestCrucial:
                 (r.scope == "intra-crucial") == (frozenset(p) in told) for r, p in zip(inner, pairs, strict=True)
             )
             total += len(pairs)
-            if case == "basket-handles-apart":
-                assert frozenset(("Handles:Left", "Handles:Right")) in {*map(frozenset, pairs)} - told
         assert total > 60 and same / total > 0.8  # over all 68 icons 296 of 335 when it was written
 
 
