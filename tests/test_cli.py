@@ -160,3 +160,22 @@ def test_a_full_disk_behind_stdout_is_one_line():
         done = subprocess.run([sys.executable, "-m", "iconjax", "dsl"], cwd=root, stdout=full, stderr=subprocess.PIPE)
     assert done.returncode == 2
     assert done.stderr == b"iconjax: error: no space left on device\n"
+
+
+def test_a_request_beside_a_program_is_not_ignored(place):
+    result = run("edit", "lamp", "Move the shade up", "--program", "program.txt")
+    assert result.exit_code == 2
+    assert "--program takes the place of a request: leave out one of them" in result.stderr
+
+
+def test_a_folder_that_is_no_picture_names_both_kinds_that_are(place):
+    (place / "stuff").mkdir()
+    result = run("edit", "stuff", "Move the shade up")
+    assert result.exit_code == 2
+    assert "a case folder has case.json" in result.stderr and "iconjax segment" in result.stderr
+
+
+def test_an_edited_svg_may_be_written_as_svg_which_the_error_says(place):
+    (place / "icon.svg").write_text('<svg xmlns="http://www.w3.org/2000/svg"/>')
+    assert ".svg, .svgz, .png" in run("edit", "icon.svg", "Move it up", "-o", "x.txt").stderr
+    assert ".svg" not in run("edit", "lamp", "Move it up", "-o", "x.txt").stderr

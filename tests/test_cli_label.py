@@ -57,13 +57,36 @@ def test_an_svg_gives_a_labels_file_that_labels_takes(place):
     assert 'translate("Ball")' in result.stdout, result.stderr
 
 
+def test_drawing_the_sheet_again_keeps_names_that_are_filled_in(place):
+    assert run("label", "icon.svg").exit_code == 0
+    made_up = read(place / "icon-labels.json")
+    assert made_up == {"1": "Table", "2": "Blue circle 2"}
+    (place / "icon-labels.json").write_text(json.dumps({"1": "Bench", "2": "Blue circle 2", "7": "Cloud"}))
+    before = (place / "icon-sheet.png").read_bytes()
+    again = run("label", "icon.svg", "--force")
+    assert again.exit_code == 0, again.stderr
+    assert read(place / "icon-labels.json") == {**made_up, "1": "Bench"}
+    assert "named segments that there are not, which were left out: Cloud" in again.stderr
+    assert (place / "icon-sheet.png").read_bytes() != before
+    (place / "told.json").write_text('{"1": "Desk"}')
+    assert run("label", "icon.svg", "--force", "--labels", "told.json").exit_code == 0
+    assert read(place / "icon-labels.json")["1"] == "Desk"
+
+
+def test_a_drawing_of_one_segment_is_told_of(place):
+    (place / "dot.svg").write_text(SVG.replace(SVG.splitlines()[1], ""))
+    result = run("label", "dot.svg")
+    assert "dot.svg has one segment, so that nothing in it can be moved apart: split its path" in result.stderr
+    assert "dot-sheet.png: 1 segment;" in result.stderr
+
+
 def test_an_image_with_a_label_map_needs_no_labels(place):
     Image.open("lamp/segmentation.png").save("mask.png")
     Image.open("lamp/image.png").save("icon.png")
     result = run("label", "icon.png", "--seg", "mask.png")
     assert result.exit_code == 0, result.stderr
     names = read(place / "icon-labels.json")
-    assert names["1"] == "Orange rectangle"
+    assert names["1"] == "Orange rectangle 1"
     (place / "some.json").write_text('{"1": "Lamp:Shade"}')
     assert run("label", "icon.png", "--seg", "mask.png", "--labels", "some.json", "--force").exit_code == 0
     assert read(place / "icon-labels.json") == {**names, "1": "Lamp:Shade"}

@@ -15,8 +15,9 @@ from segment_support import BALL, BOX, draw
 from iconjax.cli import main
 from iconjax.errors import InputError
 from iconjax.scene.segment import choose
+from iconjax.scene.segment.names import is_provisional
 
-TWO = {"1": "Red circle", "2": "Blue rectangle"}
+TWO = {"1": "Red circle 1", "2": "Blue rectangle 2"}
 
 
 @pytest.fixture
@@ -69,7 +70,7 @@ def test_a_folder_with_everything_and_nothing_on_stdout(place):
 def test_the_folder_is_edited_under_the_names_in_its_labels_file(place, monkeypatch):
     assert run("segment", "icon.png", "-o", "parts").exit_code == 0
     first = run("translate", "parts", "Move the red circle 10 px to the left", "--translator", "offline")
-    assert 'translate("Red circle")' in first.stdout, first.stderr
+    assert 'translate("Red circle 1")' in first.stdout, first.stderr
     (place / "parts/labels.json").write_text(json.dumps({"1": "Toy:Ball", "2": "Toy:Brick"}))
     second = run("translate", "parts", "Move the ball 10 px to the left", "--translator", "offline")
     assert 'translate("Toy:Ball")' in second.stdout, second.stderr
@@ -84,7 +85,7 @@ def test_the_folder_is_edited_under_the_names_in_its_labels_file(place, monkeypa
 @pytest.mark.parametrize("name", ["image.png", "segmentation.png", "labels.json", "sheet.png"])
 def test_an_edit_overwrites_no_file_of_the_folder(place, name):
     assert run("segment", "icon.png", "-o", "parts").exit_code == 0
-    (place / "p.txt").write_text('translate("Red circle")')
+    (place / "p.txt").write_text('translate("Red circle 1")')
     before = (place / "parts" / name).read_bytes()
     output = "--json" if name.endswith(".json") else "-o"
     result = run("edit", "parts", "--program", "p.txt", output, f"parts/{name}")
@@ -110,15 +111,32 @@ def test_provisional_names_are_understood_in_requests(place, word):
     (place / "parts").mkdir()
     Image.fromarray(mask).save("parts/segmentation.png")
     Image.fromarray(np.repeat(255 - 80 * mask[..., None], 3, 2)).save("parts/image.png")
-    names = {"1": f"Red {word} #1", "2": f"Light gray {word}", "3": f"Red {word} #2"}
+    names = {"1": f"Red {word} 1", "2": f"Light gray {word} 2", "3": f"Red {word} 3"}
     (place / "parts/labels.json").write_text(json.dumps(names))
     for words, name in (
         (f"the light gray {word}", names["2"]),
         (f"the right red {word}", names["3"]),
         (f"red {word} 1", names["1"]),
+        (f"{word} 3", names["3"]),
     ):
         result = run("translate", "parts", f"Move {words} 10 px up", "--translator", "offline")
         assert f'translate("{name}")' in result.stdout, result.stderr
+
+
+def test_the_number_on_the_sheet_is_that_in_the_name_and_in_the_label_map(place):
+    draw(BOX, BALL, ("rectangle", (4, 100, 24, 124), "#c03020")).save("icon.png")
+    result = run("segment", "icon.png", "-o", "parts", "--merge", "1,2")
+    assert "parts: 2 segments;" in result.stderr
+    names = json.loads((place / "parts/labels.json").read_text("utf-8"))
+    assert all(name.endswith(f" {k}") and is_provisional(name, int(k)) for k, name in names.items())
+    assert not is_provisional("Ball 3", 3) and not is_provisional("Red circle 1", 2)
+
+
+def test_one_segment_cannot_be_moved_apart(place):
+    draw(BALL).save("icon.png")
+    result = run("segment", "icon.png", "-o", "parts")
+    assert "icon.png has one segment, so that nothing in it can be moved apart" in result.stderr
+    assert "parts: 1 segment; see" in result.stderr
 
 
 def test_nothing_is_overwritten_without_force(place):
@@ -136,7 +154,7 @@ def test_segments_are_merged_and_holes_kept_on_demand(place):
     draw(BALL, BOX, ("ellipse", (30, 30, 50, 50), "white")).save("icon.png")
     assert run("segment", "icon.png", "-o", "a", "--holes").exit_code == 0
     names = json.loads((place / "a/labels.json").read_text("utf-8"))
-    assert "White circle" in names.values()
+    assert "White circle 1" in names.values()
     assert run("segment", "icon.png", "-o", "c", "--most", "1").exit_code == 0
     assert run("segment", "icon.png", "-o", "b", "--merge", "1,2").exit_code == 0
     assert list(json.loads((place / "b/labels.json").read_text("utf-8"))) == ["1"]

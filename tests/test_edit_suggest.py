@@ -21,7 +21,7 @@ from iconjax.edit.suggest import VisionSuggester, offer_suggesters
 from iconjax.scene.segment import choose
 from iconjax.scene.types import Segmentation
 
-TWO = {"1": "Red circle", "2": "Blue rectangle"}
+TWO = {"1": "Red circle 1", "2": "Blue rectangle 2"}
 
 
 @pytest.fixture(autouse=True)

@@ -27,7 +27,7 @@ def labels(data: bytes, **options) -> dict[int, str]:
 
 def test_a_labelled_group_is_one_segment_unless_something_in_it_is_labelled():
     vector = open_svg(svg(LAMP), size=96)
-    assert vector.labels == {1: "Lamp:Shade", 2: "Lamp:Dark gray piece", 3: "Table"}
+    assert vector.labels == {1: "Lamp:Shade", 2: "Lamp:Dark gray piece 2", 3: "Table"}
     assert vector.named == {1, 3}
     assert [item.node.tag for item in vector.members[2]] == ["path", "path"]
     opened = labels(svg(LAMP), open_groups=True)
@@ -63,7 +63,7 @@ def test_names_of_people_count_and_those_of_programs_do_not(attributes, name):
     vector = open_svg(
         svg(f'<circle {space} {attributes} cx="16" cy="8" r="4" fill="red"/><path d="M1 1h5v3z"/>'), size=64
     )
-    assert vector.labels[1] == (name or "Red circle")
+    assert vector.labels[1] == (name or "Red circle 1")
     assert (1 in vector.named) == bool(name)
 
 
@@ -105,10 +105,10 @@ def test_small_unlabelled_things_join_what_they_lie_on():
     shade = '<path d="M12 2a10 10 0 010 20z" fill="#f4b52c"/>'
     ring = '<circle cx="12" cy="12" r="10" fill="none" stroke="#222"/>'
     hat = '<path d="M4 1h16v6H4z" fill="#28c"/>'
-    assert labels(svg(face + spot + shade + ring + hat)) == {1: "Yellow circle", 2: "Blue piece"}
+    assert labels(svg(face + spot + shade + ring + hat)) == {1: "Yellow circle 1", 2: "Blue piece 2"}
     assert len(labels(svg(face + spot + shade + ring + hat), join_details=False)) == 5
     named = labels(svg(face + spot.replace("<circle", '<circle id="dimple"') + hat))
-    assert named == {1: "Yellow circle", 2: "Dimple", 3: "Blue piece"}
+    assert named == {1: "Yellow circle 1", 2: "Dimple", 3: "Blue piece 3"}
 
 
 def test_small_things_stay_apart_where_nothing_else_would_be_left():
@@ -197,3 +197,35 @@ def test_a_segment_painted_in_several_goes_has_the_depth_of_its_largest_layer():
     scene = open_svg(svg(face + outline), size=96).scene
     assert [layer.segment for layer in scene.layers] == [0, 1, 0]
     assert depth_order(scene).order == (0, 1)
+
+
+def test_ids_in_which_a_program_counts_by_letters_are_no_names():
+    def row(*ids: str) -> bytes:
+        return svg("".join(f'<rect id="{k}" x="{6 * n}" y="2" width="4" height="5"/>' for n, k in enumerate(ids)))
+
+    counted = labels(row("anvil-outline-a", "anvil-outline-b", "anvil-outline-Z", "anvil-outline-aa"))
+    assert all(name == f"Black rectangle {k}" for k, name in counted.items())
+    assert labels(row("leg-l", "leg-r")) == {1: "Leg l", 2: "Leg r"}
+    mixed = labels(row("wheel-a", "wheel-b", "wheel-c", "cab", "boiler", "funnel"))
+    assert mixed[1] == "Wheel a" and mixed[4] == "Cab"
+
+
+def test_pieces_without_a_name_carry_their_own_number():
+    dots = "".join(f'<circle cx="{4 + 7 * k}" cy="18" r="2" fill="#2060e0"/>' for k in range(3))
+    found = labels(svg(f"{dots}{BOX}"))
+    assert {found[k] for k in (1, 2, 3)} == {"Blue circle 1", "Blue circle 2", "Blue circle 3"}
+    assert open_svg(svg(f"{dots}{BOX}"), size=96).scene.names[1] == "Blue circle 2"
+
+
+@pytest.mark.parametrize(
+    "moving",
+    [
+        '<style>@keyframes spin{to{transform:rotate(1turn)}}</style><rect width="9" height="9"/>',
+        '<rect width="9" height="9"><animateTransform attributeName="transform" type="rotate" to="9"/></rect>',
+    ],
+)
+def test_an_animated_transform_is_said_to_override_the_edit(moving):
+    said = "animations of transform (in a browser they override the edit of what they move)"
+    assert said in open_svg(svg(moving), size=48).notes[0]
+    calm = moving.replace("transform:rotate(1turn)", "fill:red").replace("<animateTransform", '<set additive="sum"')
+    assert not any(said in note for note in open_svg(svg(calm), size=48).notes)

@@ -20,6 +20,7 @@ WEIGHTY = frozenset(
 """Categories that say what to do, wherever they stand."""
 ENDS = frozenset({".", ";", ":", "!", "?", "then", "but", "while", "without"})
 MOST_SUBJECT = 4
+LOOKS = frozenset({"look", "feel", "effect", "appearance", "style", "impression", "mood", "air", "touch", "silhouette"})
 
 
 def without_asides(words: Sequence[str], lexicon: Lexicon, names: Names) -> list[str]:
@@ -29,6 +30,7 @@ def without_asides(words: Sequence[str], lexicon: Lexicon, names: Names) -> list
     i = _heading(words, lexicon, names)
     while i < len(words):
         end = _aside(words, i, lexicon) if i else None
+        end = end or _for_looks(words, i, lexicon, names)
         end = end or (_relative(words, i, lexicon, names) if i else None)
         if end is not None and not _weighty(words[i:end], lexicon, names):
             names.notes.append(f'"{" ".join(words[i:end])}" only explains or describes')
@@ -63,6 +65,18 @@ def _aside(words: Sequence[str], i: int, lexicon: Lexicon) -> int | None:
     return None
 
 
+def _for_looks(words: Sequence[str], i: int, lexicon: Lexicon, names: Names) -> int | None:
+    """The end of "for a quirky look" at `i`, with the comma behind it where the request begins so."""
+    if words[i] != "for":
+        return None
+    for at in range(i + 2, min(i + 6, len(words))):
+        if names.hear(words[at]) is not None or words[at] in ENDS or words[at] == ",":
+            return None
+        if words[at] in LOOKS and words[i + 1] in ("a", "an", "some", "that", "more"):
+            return at + 1 + (i == 0 and list(words[at + 1 : at + 2]) == [","])
+    return None
+
+
 def _clause_end(words: Sequence[str], i: int, lexicon: Lexicon) -> int:
     last = next((j for j in range(i, len(words)) if words[j] in ENDS), len(words))
     for at in range(i, last):
@@ -94,6 +108,7 @@ def _relative(words: Sequence[str], i: int, lexicon: Lexicon, names: Names) -> i
 
 def _weighty(words: Sequence[str], lexicon: Lexicon, names: Names) -> bool:
     """Whether words say an amount, a pose or what should stay."""
+    comparison = list(words[:2]) in (["as", "if"], ["as", "though"])
     for i, word in enumerate(words):
         if i and words[i - 1] in ("the", "its", "their") and names.hear(word) is not None:
             continue
@@ -101,6 +116,6 @@ def _weighty(words: Sequence[str], lexicon: Lexicon, names: Names) -> bool:
             return True
         if word not in ("a", "an", "one") and lexicon.knows(word, WEIGHTY):
             return True
-        if any(e.category == "verb" and e.value == "keep" for e in lexicon.phrases.get((word,), ())):
+        if not comparison and any(e.category == "verb" and e.value == "keep" for e in lexicon.phrases.get((word,), ())):
             return True
     return False

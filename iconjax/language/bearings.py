@@ -13,6 +13,9 @@ RELATIVE = frozenset({"in", "out", "forward", "backward"})
 OPPOSITE = {"left": "right", "right": "left", "up": "down", "down": "up"}
 STEPS = {"left": (-1.0, 0.0), "right": (1.0, 0.0), "up": (0.0, -1.0), "down": (0.0, 1.0)}
 """Direction -> its unit vector in pixels, y down."""
+FACING = {"outer": "out", "inner": "in"}
+"""Sides by where they face -> the direction in which they lie."""
+SIDES_OF = {"left": "left", "right": "right", "up": "top", "down": "bottom"}
 ENDS = ("front", "back")
 LEAST = 0.02
 """Least offset that says a direction, as a share of the picture's larger side."""
@@ -35,6 +38,19 @@ def bearing(shapes: Shapes, name: str, direction: str, group: Sequence[str] = ()
         front = facing(shapes, name)
         return front if direction == "forward" else OPPOSITE[front]
     return direction
+
+
+def side_facing(shapes: Shapes, owners: Sequence[str], side: str) -> str:
+    """The side that is meant, where it is said by what it faces: "the outer edge of the left lamp".
+
+    Raises:
+        TranslationError: several things, or the picture as a whole, have several such sides.
+    """
+    if side not in FACING:
+        return side
+    if len(owners) != 1 or owners[0].startswith("@") or owners[0] == "canvas":
+        raise TranslationError(f"which edge is the {side} one is not clear: say left, right, upper or lower")
+    return SIDES_OF[bearing(shapes, owners[0], FACING[side])]
 
 
 def _inward(shapes: Shapes, name: str, group: Sequence[str]) -> str:

@@ -45,7 +45,8 @@ class Chooser:
         for modifier in phrase.modifiers:
             said = [e for e in found if self.said(e, {modifier}, nouns)]
             if said:
-                found = said
+                said = self._literal(said, modifier, phrase)
+                found = self._extreme(said, modifier, phrase) if self._superlative(modifier, phrase, said) else said
             else:
                 unsaid.append(modifier)
         if phrase.ordinal is not None:
@@ -54,6 +55,17 @@ class Chooser:
         for modifier in unsaid:
             found = self._extreme(found, modifier, phrase)
         return self._posed(self._plainest(found, phrase), phrase)
+
+    def _literal(self, said: list[Entity], modifier: str, phrase: Phrase) -> list[Entity]:
+        """Of a lower and a bottom rung the one whose word was used."""
+        words = {w for w in phrase.text.split() for e in self.lexicon.entries(w, "modifier") if e.value == modifier}
+        return [e for e in said if words & e.words] or said
+
+    def _superlative(self, modifier: str, phrase: Phrase, said: Sequence[Entity]) -> bool:
+        """Whether "lowest" and the like are left with several that are called lower or bottom ones."""
+        words = (w for w in phrase.text.split() if w.endswith(("est", "most")))
+        most = any(e.value == modifier for w in words for e in self.lexicon.entries(w, "modifier"))
+        return most and len(said) > 1 and not phrase.plural and modifier in GEOMETRIC
 
     def _plainest(self, found: list[Entity], phrase: Phrase) -> list[Entity]:
         """Of things that all have what a phrase says, the one that says nothing more: the top leaf."""

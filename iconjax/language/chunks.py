@@ -8,6 +8,7 @@ from typing import Any
 
 from iconjax.errors import TranslationError
 from iconjax.language.lexicon import Entry, Lexicon
+from iconjax.language.likening import says_nothing
 from iconjax.language.names import Names
 from iconjax.language.senses import ANNOUNCING, OPENERS, Senses
 
@@ -139,7 +140,15 @@ class _Cutter:
         if self.names.hear(self.words[i]) is None:
             return False
         opens = self.previous in ("separator", "without", "verb")
+        if opens and entry.category == "relation" and self._full_name(i):
+            return True
         return (self.things_first and entry.category == "verb") or (opens and entry.category == "side")
+
+    def _full_name(self, i: int) -> bool:
+        """Whether two words are all of a name: "contact strip | twice as wide"."""
+        pair = frozenset(self.lexicon.singular(w) for w in self.words[i : i + 2])
+        every = (*self.names.objects, *self.names.parts)
+        return len(pair) == 2 and any(pair in (e.part_words, e.object_words) for e in every)
 
     def _attributive(self, i: int) -> Cut | None:
         """ "(I want) a | wider | table": the comparative asks for a change, unless it tells one thing from another."""
@@ -171,6 +180,9 @@ class _Cutter:
         if self.lexicon.knows(word, {"stop"}) or word in ("whole", "entire", "both"):
             stop = self.lexicon.match(self.words, i, "stop")
             return "stop", "", None, stop[1] if stop else i + 1
+        if word.isalpha() and word not in self.lexicon.words and says_nothing(word, self.phrases.noun_follows(i + 1)):
+            self.names.notes.append(f'"{word}" passed over')
+            return "stop", "", None, i + 1
         return "unknown", "", None, i + 1
 
     def _meaning(self, i: int, entry: Entry, end: int) -> Cut:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 from iconjax.errors import TranslationError
+from iconjax.language.bearings import side_facing
 from iconjax.language.lexicon import Entry
 from iconjax.language.names import Names, Phrase, Reference
 
@@ -22,6 +23,8 @@ class Context:
         themes: what earlier clauses were about, the latest first.
         mentions: everything mentioned, the latest first.
         last: the last phrase with a noun in the place of a theme, for "the right one".
+        related: the last phrase with a noun in the place of a reference.
+        beside: what the phrase before in the same list means.
         verbs: verbs of the last clause that had some, for clauses without.
         direction: direction that an "until" clause inherits.
         sign: 1 where the last change of size was one to larger, -1 to smaller.
@@ -32,6 +35,8 @@ class Context:
     themes: list[tuple[str, ...]] = field(default_factory=list)
     mentions: list[tuple[str, ...]] = field(default_factory=list)
     last: Phrase | None = None
+    related: Phrase | None = None
+    beside: tuple[str, ...] = ()
     verbs: list[Entry] = field(default_factory=list)
     direction: str = ""
     complained: str = ""
@@ -68,6 +73,17 @@ class Context:
         """What the phrases after a relation mean."""
         return self.led(self._all(phrases, theme, ""))
 
+    def _meant(self, phrase: Phrase, theme: Sequence[str]) -> tuple[str, ...]:
+        """ "(From the left lamp to) the right one": of the kind of what something was last related to."""
+        last = self.related
+        if phrase.nouns or phrase.indefinite not in (None, "one") or not phrase.modifiers or not theme or last is None:
+            return ()
+        try:
+            found = self.names.resolve(replace(phrase, nouns=last.nouns, indefinite=None))
+        except TranslationError:
+            return ()
+        return found if not set(found) & set(theme) else ()
+
     def led(self, reference: Reference) -> Reference:
         """Without the pieces of a thing that its main piece stands for."""
         kept = tuple(n for n in reference.names if self.names.trailing.get(n) not in reference.names)
@@ -76,12 +92,14 @@ class Context:
     def _all(self, phrases: Sequence[Phrase], theme: Sequence[str], relation: str) -> Reference:
         if not phrases:
             raise TranslationError("what it should be related to is not said")
-        found = []
+        found: list[Reference] = []
         for index, phrase in enumerate(phrases):
             bare = not phrase.nouns and not phrase.pronoun and not phrase.special and not phrase.side
             if bare and index + 1 < len(phrases):
                 phrase = replace(phrase, nouns=phrases[-1].nouns, owner=phrase.owner or phrases[-1].owner)
+            self.beside = found[-1].names if found else ()
             found.append(self.one(phrase, theme, relation))
+        self.beside = ()
         if found[0].side and phrases[0].text.split(" of ")[0].endswith("s"):
             found = [replace(f, side=found[0].side) for f in found]  # "the tops of A and B"
         sides = {f.side for f in found}
@@ -102,12 +120,13 @@ class Context:
             return self._possessed(phrase, theme, relation)
         owners = self.one(owner, theme).names if owner is not None else ()
         if phrase.side is not None:
-            if not owners:
-                corner = len(phrase.side) > 6 or "edge" in phrase.text or "border" in phrase.text
-                owners = ("canvas",) if corner else ("@theme",)
-            return Reference(owners, phrase.side)
+            return self._sided(phrase, phrase.side, owners)
         if owners == ("canvas",) or owners == ("@ground",):
             owners = ()
+        if meant := self._meant(phrase, theme):
+            return Reference(meant)
+        if theme and phrase.nouns and not phrase.owner:
+            self.related = phrase
         if not phrase.nouns:
             if self.last is None:
                 raise TranslationError(f'"{phrase.text}" does not say which thing is meant')
@@ -116,10 +135,20 @@ class Context:
                 owners = self.one(self.last.owner, theme).names
         return Reference(self._choose(phrase, self._named(phrase, owners), theme, relation))
 
+    def _sided(self, phrase: Phrase, side: str, owners: tuple[str, ...]) -> Reference:
+        if not owners:
+            corner = len(side) > 6 or "edge" in phrase.text or "border" in phrase.text
+            owners = ("canvas",) if corner else ("@theme",)
+        return Reference(owners, side_facing(self.names.shapes, owners, side))
+
     def _possessed(self, phrase: Phrase, theme: Sequence[str], relation: str) -> Reference:
         """ "Its roof": of the theme where it has one, else of what was mentioned before."""
         failure: TranslationError | None = None
-        for owners in ([tuple(theme)] if theme else []) + (self.mentions if theme else [*self.themes, *self.mentions]):
+        for owners in (
+            ([self.beside] if self.beside else [])
+            + ([tuple(theme)] if theme else [])
+            + (self.mentions if theme else [*self.themes, *self.mentions])
+        ):
             try:
                 return Reference(self._choose(phrase, self._named(phrase, owners), theme, relation))
             except TranslationError as error:
@@ -161,12 +190,21 @@ class Context:
         try:
             return self.names.resolve(phrase, owners)
         except TranslationError:
+            if len(owners) == 1 and (own := self._called_after(phrase, owners[0])):
+                return own
             if not owners and (found := self._of_theme(phrase)):
                 return found
             objects = tuple(dict.fromkeys(s.object for o in owners for s in self.names.shapes.segments(o)))
             if not owners or set(objects) == set(owners):
                 raise
             return self.names.resolve(phrase, objects)
+
+    def _called_after(self, phrase: Phrase, owner: str) -> tuple[str, ...]:
+        """The one of several like things that bears the owner's name: a door's window is the "Door Window"."""
+        own = {w for e in self.names.parts if e.name == owner for w in e.part_words}
+        like = [n for n in self.names.like(phrase) if n != owner]
+        named = [e.name for e in self.names.parts if e.name in like and own and own <= e.part_words]
+        return (named[0],) if len(named) == 1 and not phrase.modifiers and not phrase.plural else ()
 
     def _of_theme(self, phrase: Phrase) -> tuple[str, ...]:
         """What a phrase that could be several things means among the parts of what was spoken of last: "the wax"."""

@@ -40,7 +40,11 @@ def complete(clauses: list[Slots]) -> list[Slots]:
             before.verbs, before.changes, before.shifts, before.relations = [], [], [], []
             before.follows = ":"
             clauses[:] = [c for c in clauses if c is not before or c.theme]
-        if slots.connector in SOFT and _leads_up(before, slots):
+        if before.marks.get("apart") and not _amounts(before) and slots.gap and _amounts(slots) and not _turns(before):
+            before.verbs, before.marks, before.follows = [], {}, ":"  # "closer together, so that the gap is 20 px"
+        if _only_amount(before, slots):
+            clauses[:] = [c for c in clauses if c is not slots]
+        elif slots.connector in SOFT and _leads_up(before, slots):
             slots.theme, slots.connector = before.theme, before.connector
             slots.verbs = slots.verbs or before.verbs
             clauses[:] = [c for c in clauses if c is not before]
@@ -97,6 +101,8 @@ def _moves(before: Slots, slots: Slots) -> None:
 def _headline(before: Slots, slots: Slots) -> bool:
     """ "Bigger wheels! About twice as big", "make the crown wider: each leaf by 20 %", "the cable slopes. Level it"."""
     related = any(r.reference for r in before.relations)
+    if slots.connector == "," and _measures(before, slots):
+        return True
     if _amounts(before) or related or before.marks or before.negated or before.complaint or before.kinds() & {"keep"}:
         return False
     if slots.connector == ":":
@@ -109,6 +115,34 @@ def _headline(before: Slots, slots: Slots) -> bool:
         return not before.changes and not before.kinds() & {"make"}
     dims = {c.dim for c in slots.changes}
     return all(c.dim in dims and not c.same for c in before.changes)
+
+
+def _turns(slots: Slots) -> bool:
+    return "rotate" in slots.kinds()
+
+
+def _measures(before: Slots, slots: Slots) -> bool:
+    """ "Thicker trunk, 160 px wide": the second says how large it should come out."""
+    bare = not _amounts(before) and before.kinds() <= {"make"} and not before.shifts and not before.relations
+    if not bare or slots.theme or slots.verbs or not before.theme or before.negated or before.marks:
+        return False
+    told = [c for c in slots.changes if c.amount is not None and c.amount.unit == "px" and c.same and not c.amount.of]
+    graded = [c for c in before.changes if c.sign and not c.same]
+    alike = len(told) == len(graded) == 1 and (graded[0].dim in ("size", "thick", told[0].dim) or told[0].dim == "size")
+    return alike and len(slots.changes) == len(before.changes) == 1
+
+
+def _only_amount(before: Slots, slots: Slots) -> bool:
+    """ "Bigger wheels! 15 % on each": an amount alone measures the change before."""
+    says = slots.verbs or slots.changes or slots.shifts or slots.relations or slots.marks or slots.negated
+    every = all(p.pronoun == "them" for p in slots.theme)
+    amount = slots.amount
+    if says or not every or amount is None or amount.unit not in ("ratio", "times") or slots.connector not in HARD:
+        return False
+    if _amounts(before) or len(before.changes) != 1 or not before.changes[0].sign or before.changes[0].reference:
+        return False
+    before.changes[0].amount = amount
+    return True
 
 
 def _leads_up(before: Slots, slots: Slots) -> bool:

@@ -30,8 +30,10 @@ def gap(out: Collector, clause: Clause) -> None:
     """The gap between two things changes."""
     if "first" in clause.manner and clause.side in EDGES and "rotate" not in clause.manner:
         return _sides_apart(out, clause)
-    for kind in clause.manner - {"first"}:
-        out.moves(kind, clause)
+    for kind in clause.manner - {"first", "mover"}:
+        out.moves(kind, replace(clause, theme=clause.theme[:1]) if "mover" in clause.manner else clause)
+    if "mover" in clause.manner:
+        out.anchor(clause.theme[1], clause.theme[0])
     a, b = (region(clause.side, quoted(n)) for n in clause.theme)
     amount = clause.amount or Amount(1.0, "factor")
     now = call("min_dist", a, b)

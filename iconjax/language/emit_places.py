@@ -89,7 +89,9 @@ def related(out: Collector, clause: Clause, name: str, other: str) -> None:
     if kind in SIDED and clause.amount is not None:
         apart(out, clause, name, other)
         return
-    if kind in ("on", "above", "below") and not clause.side:
+    if "plumb" in clause.manner and not clause.side:
+        centre(out, "centered_h", name, other)
+    elif kind in ("on", "above", "below") and not clause.side:
         over(out, name, other)
     if kind == "on" or kind in SIDED:
         out.add(call("on_top" if kind == "on" else SIDED[kind], s, t))

@@ -33,7 +33,10 @@ def united(out: Collector, clause: Clause, dims: tuple[str, ...]) -> None:
         attribute = extents.pop() if len(extents) == 1 and extents <= {"hori_len", "vert_len"} else "vert_len"
         old = call(attribute, call("old", whole))
         out.equal(call(attribute, whole), amount.value if amount.unit == "length" else sized(amount, old))
-    if clause.dimension == "size":
+        if amount.unit == "factor" and attribute in ("hori_len", "vert_len"):
+            for name in names:  # the whole and each of its things by the same factor
+                out.equal(call(attribute, name), sized(amount, call(attribute, call("old", name))))
+    if clause.dimension == "size" and amount.unit != "factor":
         out.add(*(call("uniform", n) for n in names))
 
 

@@ -92,7 +92,9 @@ def _included(words: list[str], at: int, lexicon: Lexicon, names: Names) -> list
         return words  # an apposition says nothing of other things
     end += words[end : end + 1] == [","] and words[end + 1 : end + 2] != ["and"]
     at -= words[at] != "," and words[at - 1] == ","
-    joined = [w for a, b in others for w in ("and", *([] if words[a] == "the" else ["the"]), *words[a:b])]
+    joined = [
+        w for a, b in others for w in ("and", *([] if words[a] in ("the", "its", "their") else ["the"]), *words[a:b])
+    ]
     every = spelt(names) if others and WHOLES & set(words[host[1] : host[2]]) else None
     named = {lexicon.singular(w) for w in words[host[2] - 1].split("-")} & names.vocabulary
     if every is not None and not named:

@@ -6,8 +6,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from iconjax.language.gaps import gap_of, gap_verbs, gaps_named, without_facing
+from iconjax.language.idioms import as_before, brought_to, counted, fronted, itself, taken_off
 from iconjax.language.lexicon import Lexicon
 from iconjax.language.names import Names
+from iconjax.language.sides_said import given_end, outward, reaching, same_end
 from iconjax.language.wordings import again, as_they_are, gapped, more_extent, multiplied, scan, signed, spaced
 
 LONGEST_NAME = 3
@@ -21,7 +24,17 @@ def plain(words: Sequence[str], lexicon: Lexicon, names: Names) -> list[str]:
         _portions,
         _joined,
         _less,
+        fronted,
+        itself,
         again,
+        given_end,
+        same_end,
+        outward,
+        gaps_named,
+        gap_of,
+        without_facing,
+        gap_verbs,
+        reaching,
         more_extent,
         _rewritten,
         spaced,
@@ -29,9 +42,13 @@ def plain(words: Sequence[str], lexicon: Lexicon, names: Names) -> list[str]:
         signed,
         multiplied,
         as_they_are,
+        as_before,
+        taken_off,
+        brought_to,
         _backward,
         _particles,
         _counts,
+        counted,
         _without_fillers,
         _each,
     ):

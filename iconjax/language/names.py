@@ -37,8 +37,9 @@ class Names:
         things = frozenset(
             w[0] for w, e in lexicon.phrases.items() if len(w) == 1 and {x.category for x in e} <= THINGS
         )
+        labels = [*scene.objects, *(s.part for s in scene.segments if s.part is not None)]
         self.trailing: dict[str, str] = {}
-        self.hearing = Hearing([e.words for e in (*self.objects, *self.parts)], lexicon, things)
+        self.hearing = Hearing([e.words for e in (*self.objects, *self.parts)], lexicon, things, labels)
         self.chooser = Chooser(self.shapes, lexicon, self.hearing, choices or {})
 
     @property
@@ -80,10 +81,12 @@ class Names:
         found = self.chooser.narrow([group[0] for group in pieces.values()] if pieces else found, phrase)
         if phrase.indefinite is None and len(found) > 1 and not phrase.plural:
             found = self.chooser.doubt(phrase, found)
-        if phrase.ignored and not (len(found) == 1 and self._may_ignore(found[0], phrase)):
+        few = len(found) == 1 or (phrase.plural and not phrase.foreign and len(phrase.ignored) == 1)
+        if phrase.ignored and not (few and all(self._may_ignore(e, phrase) for e in found)):
             raise TranslationError(f'"{" ".join(phrase.ignored)}" is not understood')
         if phrase.ignored:
-            self.notes.append(f'"{phrase.text}" taken for "{found[0].name}", the only one in the picture')
+            told = f"{listed([e.name for e in found])}, the only {'one' if len(found) == 1 else 'ones'} in the picture"
+            self.notes.append(f'"{phrase.text}" taken for {told}')
         names = tuple(e.name for e in found)
         self.trailing.update({e.name: group[0].name for group in pieces.values() for e in group[1:]})
         if pieces and phrase.count in (None, len(names)):

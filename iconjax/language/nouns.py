@@ -9,31 +9,12 @@ from iconjax.language.lexicon import Lexicon
 from iconjax.language.names import THINGS, Names, Phrase
 
 GRAMMAR = frozenset(
-    [
-        "verb",
-        "relation",
-        "direction",
-        "adjective",
-        "dim",
-        "mode",
-        "separator",
-        "sense",
-        "orient",
-        "fixed",
-        "stop",
-        "pronoun",
-        "side",
-        "number",
-        "fraction",
-        "multiple",
-        "unit",
-        "apart",
-        "distance",
-        "places",
-        "squarely",
-        "vague",
-    ]
-)
+    {
+        "verb", "relation", "direction", "adjective", "dim", "mode", "separator", "sense", "orient", "fixed",
+        "stop", "pronoun", "side", "number", "fraction", "multiple", "unit", "apart", "distance", "places",
+        "squarely", "vague",
+    }
+)  # fmt: skip
 """Categories that win over a name when nothing announces a noun."""
 PLACED = {
     ("on", "top"): ("top", 2),
@@ -76,7 +57,8 @@ class NounReader:
             phrase, i, announced = _described(phrase, *step), i + 1, True
         if self.word(i) in ANAPHORS and (announced or i > start):
             other = phrase.indefinite or ("other" if self.word(i).startswith("other") else None)
-            return with_(phrase, indefinite=other, plural=self.word(i).endswith("s")), i + 1
+            one = with_(phrase, indefinite=other, plural=self.word(i).endswith("s"))
+            return self._one_at(one, i + 1) if announced and not other else (one, i + 1)
         return self._nouns(phrase, i, announced)
 
     def _nouns(self, phrase: Phrase, i: int, announced: bool) -> tuple[Phrase, int] | None:
@@ -134,6 +116,15 @@ class NounReader:
         if phrase.plural or phrase.modifiers or len(self.names.like(phrase)) < 2:
             return phrase, i
         return with_(phrase, modifiers=(where[0].value,)), where[1]
+
+    def _one_at(self, phrase: Phrase, i: int) -> tuple[Phrase, int]:
+        """ "The one | on the right"."""
+        where = self.lexicon.match(self.words, i, "direction") if self.word(i) in ("on", "to") else None
+        side = where[0].value if where is not None else ""
+        sided = {"left": "left", "right": "right"}.get(side, "")
+        if not sided or where is None or phrase.modifiers or self.word(where[1]) == "of" or self.noun_follows(where[1]):
+            return phrase, i
+        return with_(phrase, modifiers=(sided,)), where[1]
 
     def _goes_on(self, nouns: Sequence[str], i: int) -> bool:
         """Whether the word at `i`, though it has other uses, completes a name: "the table | top"."""
@@ -221,6 +212,8 @@ class NounReader:
         if not self._opens(i) or self.lexicon.singular(word) not in self.names.vocabulary:
             return False
         kinds = {e.category for e in self.lexicon.phrases.get((word,), ())}
+        if after == "of" and kinds <= {"side", *THINGS}:
+            return True  # "base of the lamp", where it has one
         if not kinds or not kinds <= {"verb", *THINGS, "descriptor", "synonym"}:
             return False
         if i > 0 and self.lexicon.knows(self.words[i - 1], {"verb"}) and self.words[i - 1] not in MODAL:

@@ -157,8 +157,13 @@ class _Search:
         if unknown:
             if self.failure is None:
                 self.unknown, self.understood = unknown, [c.text for c in pieces if c.kind == "phrase"]
-            raise TranslationError(f"no meaning for {', '.join(repr(u) for u in unknown)}")
+            raise TranslationError(f"no meaning for {', '.join(map(self._told, unknown))}")
         return pieces
+
+    def _told(self, word: str) -> str:
+        """An unknown word, with the names that it may mean."""
+        perhaps = self.names.hearing.perhaps.get(word, ())
+        return repr(word) + (f" (it may be {' or '.join(map(repr, perhaps))})" if perhaps else "")
 
     def _read(self, tree: Tree[Token]) -> Iterator[_Found]:
         """What a parse says and, where several readings are wanted, what else it may say."""
@@ -209,9 +214,12 @@ def _check_guesses(clauses: Sequence[Clause]) -> None:
 def _words(request: str, words_of: Lexicon, names: Names) -> list[str]:
     """The words of a request, typing errors mended and asides left out."""
     out = []
-    for word in split_hyphens(tokenise(request), words_of.words | names.vocabulary):
+    words = split_hyphens(tokenise(request), words_of.words | names.vocabulary)
+    names.hearing.listen(words)
+    for word in words:
         if word.isalpha() and word not in words_of.words and names.hear(word) is None:
             known = word in words_of.synonyms or words_of.singular(word) in words_of.synonyms or word.endswith("ing")
+            known = known or word in names.hearing.nominal
             better = None if known else mend(word, (w for w in words_of.words if len(w) > 4))
             if better is not None:
                 names.notes.append(f'"{word}" read as "{better}"')

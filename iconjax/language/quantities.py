@@ -23,6 +23,9 @@ FILLERS = frozenset(
         "previous",
         "former",
         "entire",
+        "exact",
+        "precise",
+        "very",
     }
 )
 DECIMAL = re.compile(r"\d+(\.\d+)?$")

@@ -10,7 +10,7 @@ from iconjax.language.context import Context
 from iconjax.language.frames import Change, Slots
 from iconjax.language.names import Reference
 from iconjax.language.read_sizes import factor
-from iconjax.language.reading import listed
+from iconjax.language.reading import FOLLOWING, followed, listed
 
 
 def swap(context: Context, theme: Reference, slots: Slots) -> Clause:
@@ -24,8 +24,13 @@ def swap(context: Context, theme: Reference, slots: Slots) -> Clause:
 
 def gap(context: Context, slots: Slots, theme: Reference) -> Clause:
     names = theme.names
+    mover = False
     if len(names) == 1:
         names = context.names.members_if_collection(names[0])
+    if len(names) == 1 and slots.connector in FOLLOWING and all(p.pronoun == "them" for p in slots.theme):
+        # "move A towards B until the gap between them is 40 px"
+        others = [m for m in context.mentions if len(m) == 1 and not set(m) & set(names)]
+        names, mover = (names[0], others[0][0]) if others else names, bool(others)
     if len(names) != 2:
         raise TranslationError(f"a distance needs two things; the request names {listed(names)}")
     info = next((v.info for v in slots.verbs if v.value == "scale"), {})
@@ -34,6 +39,8 @@ def gap(context: Context, slots: Slots, theme: Reference) -> Clause:
     amount = slots.amount or (slots.changes[0].amount if slots.changes else None)
     if "factor" in info:
         amount = Amount(float(info["factor"]), "times", "to")
+    if amount is None and followed(slots):
+        return Clause("go", names)  # "towards each other until they meet"
     if amount is None:
         raise TranslationError("how large the distance should become is not said")
     reference: tuple[str, ...] = ()
@@ -50,7 +57,9 @@ def gap(context: Context, slots: Slots, theme: Reference) -> Clause:
     else:
         final = factor(amount, sign, Change("gap"), False)
     moved = "rotate" if "rotate" in {*slots.kinds(), *(v.value for v in context.verbs)} else "translate"
-    manner = frozenset({moved, *({"first"} if theme.side and final.unit == "length" else ())})
+    manner = frozenset(
+        {moved, *({"first"} if theme.side and final.unit == "length" else ()), *({"mover"} if mover else ())}
+    )
     return Clause("gap", names, final, dim, reference=reference, side=theme.side, manner=manner)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -12,6 +13,8 @@ from iconjax.language.frames import Relation, Shift, Slots
 from iconjax.language.names import Reference
 from iconjax.language.reading import FOLLOWING, followed, is_own, listed
 
+PLUMB = re.compile(r"\b(?:right|directly|straight|exactly|plumb) (?:above|below|over|under|underneath|beneath)\b")
+"""What asks for the middles to be one above the other."""
 MEASURED = ("away", "toward", "above", "below", "left_of", "right_of")
 """Relations that may carry a distance."""
 
@@ -26,7 +29,8 @@ def move(context: Context, slots: Slots, theme: Reference, relations: list[Relat
     yield from _distances(context, slots, names, shifts, relations)
     context.direction = direction if followed(slots) else ""
     targets = [r for r in relations if r.kind != "along"]
-    nearing = [r for r in targets if r.kind in ("toward", "away") and slots.amount is None and r.reference]
+    kinds = ("toward", "away", *(("to",) if slots.follows in ("until", "till") else ()))
+    nearing = [r for r in targets if r.kind in kinds and slots.amount is None and r.reference]
     if nearing and followed(slots):
         # "bring it closer to the cup until ...": how far, the next clause says
         for relation in nearing:
@@ -151,6 +155,8 @@ def related(context: Context, relation: Relation, theme: Reference, direction: s
     manner = manner | {"to"} if relation.kind == "to" else manner
     if relation.kind == "to" and target.names == ("canvas",):
         kind = "flush"
+    if kind in ("above", "below") and PLUMB.search(slots.text):
+        manner = manner | {"plumb"}
     kind, target = _sided(kind, relation, target, theme, direction)
     if relation.kind == "around":
         raise TranslationError('"around" does not say a place')

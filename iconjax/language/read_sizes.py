@@ -45,7 +45,7 @@ def scale(context: Context, slots: Slots, theme: Reference) -> Iterator[Clause]:
 
 def pin(context: Context, slots: Slots, info: dict[str, object]) -> str:
     """A direction with a verb of size says which side gives: "stretch to the right" keeps the left side."""
-    if info.get("base") in ("scale", "resize", "rescale", "size"):
+    if info.get("base") in ("scale", "resize", "rescale", "size", "slim", "thin", "narrow"):
         _scaled_up_or_down(slots, info)
     side = slots.marks.get("stays", "")
     for shift in slots.shifts:

@@ -68,7 +68,7 @@ class Teller:
 
     def _settled(self, slots: Slots, relation: Relation) -> bool:
         """Whether a relation needs no look at what it leads to."""
-        if slots.changes and self._gives(slots, relation):
+        if (slots.changes or "scale" in slots.kinds()) and self._gives(slots, relation):
             return True
         if slots.complaint and relation.reference and relation.kind in TELLING:
             slots.relations.remove(relation)  # "the spring under the horse is too tall"

@@ -22,6 +22,10 @@ SETTLING = frozenset({"end up", "come out", "turn out"})
 """Verbs with which "higher" is a place."""
 
 
+ENDS = frozenset({"", "edge", "end", "ends", "corner"})
+"""Spots at which a gap is another one than that of the things themselves."""
+
+
 def _is_factor(amount: Amount) -> bool:
     """Whether an amount alone says a size: "the jib to 130 %", "twice"."""
     return amount.unit == "times" or (amount.unit == "ratio" and amount.mode == "to" and not amount.vague)
@@ -53,6 +57,8 @@ class Reader:
         if len(slots.shifts) == 1 and slots.shifts[0].place and not slots.verbs and not slots.relations:
             return [Clause("side", context.theme(()).names, direction=slots.shifts[0].direction)]
         self._inherit(slots)
+        if slots.gap:
+            slots.theme = tuple(replace(p, loose="") if p.loose not in ENDS else p for p in slots.theme)
         relation = slots.relations[0].kind if slots.relations else ""
         theme = context.theme(slots.theme, relation)
         clauses = self._whole(list(self._clauses(slots, theme)))
@@ -85,7 +91,8 @@ class Reader:
 
     def _inherit(self, slots: Slots) -> None:
         """Complete an elliptical clause: "... and the right one squarely on top of that"."""
-        if not slots.verbs and self._says(slots) and slots.connector not in (*FOLLOWING, "while"):
+        meets = bool(slots.relations) and any(p.side for p in slots.theme)  # "... and its right end is flush with B"
+        if not slots.verbs and self._says(slots) and not meets and slots.connector not in (*FOLLOWING, "while"):
             slots.verbs = list(self.context.verbs)
 
     def _says(self, slots: Slots) -> bool:

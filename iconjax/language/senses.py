@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from iconjax.language.lexicon import Entry, Lexicon
+from iconjax.language.likening import known_verb_like
 from iconjax.language.names import Names
 from iconjax.language.phrases import PhraseReader
 from iconjax.language.quantities import QuantityReader
@@ -57,8 +58,21 @@ class Senses:
             got = lexicon.match(words, i, category)
             if got is not None and (best is None or got[1] > best[1]) and not self._bars(i, got):
                 best = got
+        if best is None and previous in OPENERS:
+            best = self._verb_like(i)
         stops = lexicon.match(words, i, "stop")
         return None if best is not None and stops is not None and stops[1] > best[1] else best
+
+    def _verb_like(self, i: int) -> tuple[Entry, int] | None:
+        """An unknown verb as the one of the lexicon that shares a sense with it."""
+        word = self.words[i]
+        if not word.isalpha() or word in self.lexicon.words or self.names.hear(word) is not None:
+            return None
+        entry = known_verb_like(word, self.lexicon)
+        if entry is None:
+            return None
+        self.names.notes.append(f'"{word}" read as "{entry.info["base"]}"')
+        return entry, i + 1
 
     def _bars(self, i: int, got: tuple[Entry, int]) -> bool:
         """Whether what follows shows that a reading is not meant."""
@@ -79,6 +93,8 @@ class Senses:
         if words[end : end + 1] == ["of"] and words[end - 1] in ("top", "bottom"):
             return True
         sides = (lexicon.match(words, at, "side") for at in (end - 1, end - 2) if at >= 0)
+        if words[end : end + 1] in (["one"], ["ones"]):
+            return True  # "towards the middle | one"
         return self.phrases.noun_at(end, False) or any(s is not None and s[1] > end for s in sides)
 
     def _takes(self, i: int, got: tuple[Entry, int]) -> bool:

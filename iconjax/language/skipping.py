@@ -8,9 +8,9 @@ kept as a topic, so that "its" finds it.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import pairwise
 
 from iconjax.language.lexicon import Lexicon
+from iconjax.language.looks import LINKING, exclaims, only_looks
 from iconjax.language.names import THINGS, Names
 
 STRONG = frozenset({".", ";", ":", "!", "?"})
@@ -22,8 +22,6 @@ WEIGHTY = frozenset(
     | {"upside_down", "vague", "direction", "squarely", "mutual", "places", "instead"}
 )
 """Categories that say something about place, pose or size."""
-LINKING = "make"
-"""Kind of verbs that say nothing by themselves ("is", "has")."""
 PREPOSITIONS = frozenset(
     {"in", "on", "at", "from", "with", "about", "around", "into", "over", "under", "off", "out", "up"}
 )
@@ -36,7 +34,7 @@ SMALL = frozenset({"a", "an", "one", "no", "only", "just", "all", "too", "like",
 def without_stories(words: Sequence[str], lexicon: Lexicon, names: Names) -> list[str]:
     """The words without clauses that only tell a story; what was left aside is noted."""
     view = _View(lexicon, names)
-    words = view.without_adjunct(words)
+    words = view.without_looks(view.without_adjunct(words))
     parts = _parts(words)
     kinds = []
     for at, (mark, part) in enumerate(parts):
@@ -102,6 +100,8 @@ class _View:
         strange = [w for w in strange if not self._names_next(part, part.index(w))]  # "the electric | guitar"
         spatial = any(self.spatial(part, i, heading) for i in range(len(part)))
         looks = heading and any(self.lexicon.knows(w, {"appear"}) for w in part) and not self._measured(part)
+        if heading and only_looks(part, self.lexicon, self.names):
+            return "story"  # "the tyres look flat"
         short = looks or (heading and colon and len(part) <= SHORT and not self._measured(part))
         doing = any(self.lexicon.knows(w, {"verb"}) or _touches(self.lexicon, w) for w in part)
         if heading and strange and not doing and part[0] in DETERMINERS and self._of_strangers(part):
@@ -113,21 +113,9 @@ class _View:
         links = any(e.value == LINKING for w in part for e in self.lexicon.entries(w, "verb"))
         if not spatial and links and self.lexicon.knows(part[-1], {"descriptor"}):
             return "story"  # "big eyes are cute"
-        if heading and self._exclaims(part) and not self._measured(part):
+        if heading and exclaims(part, self.lexicon, self.names) and not self._measured(part):
             return "story"  # "such a big blossom on such a small plant!"
         return "instruction" if spatial and all(self._things_only(w) for w in strange) else ""
-
-    def _exclaims(self, part: Sequence[str]) -> bool:
-        """Whether a clause without any verb tells how things are."""
-        entries = [e for w in part for e in self.lexicon.phrases.get((w,), ()) if self.names.hear(w) is None]
-        entries = [e for e in entries if not (e.category == "verb" and e.value == LINKING)]
-        doing = any(e.category in ("verb", "direction", "sense", "without") for e in entries)
-        compared = any(e.category == "adjective" and e.info["degree"] != "plain" for e in entries)
-        return not doing and not compared and self._amazed(part)
-
-    def _amazed(self, part: Sequence[str]) -> bool:
-        much = any(a in ("too", "so") and b in ("much", "many", "little", "few") for a, b in pairwise(part))
-        return much or bool({"such", "what"} & set(part))
 
     def _measured(self, part: Sequence[str]) -> bool:
         """Whether a clause gives an amount."""
@@ -212,6 +200,15 @@ class _View:
                 self.names.notes.append(f'left aside: "{" ".join(words[i:last])}"')
                 return [*words[:i], *words[last:]]
         return words
+
+    def without_looks(self, words: Sequence[str]) -> Sequence[str]:
+        """ "The tyres look flat, make them ..." is about the tyres."""
+        comma = list(words).index(",") if "," in words else 0
+        topic = self.topic(words[:comma]) if comma and only_looks(words[:comma], self.lexicon, self.names) else []
+        if not topic:
+            return words
+        self.names.notes.append(f'left aside: "{" ".join(words[:comma])}"')
+        return [*topic, ":", *words[comma + 1 :]] if self.refers_back(words[comma + 1 :]) else words[comma + 1 :]
 
     def topic(self, part: Sequence[str]) -> list[str]:
         """The first thing of the picture that a clause names, with its modifiers."""

@@ -6,6 +6,8 @@ from iconjax.language.lexicon import Lexicon
 from iconjax.language.names import Names
 from iconjax.language.things import Phrase
 
+GENERIC = frozenset({"thing", "lot", "picture", "icon", "image", "drawing", "scene", "composition"})
+"""Nouns that may mean all that the picture shows."""
 WHOLES = frozenset({"whole", "entire", "complete"})
 
 
@@ -13,8 +15,9 @@ def with_wholes(words: list[str], lexicon: Lexicon, names: Names) -> list[str]:
     """The whole picture's things for "the whole X" and "everything", where no thing is called X."""
     for i, word in enumerate(words):
         after = words[i + 1] if i + 1 < len(words) else ""
-        whole = word in WHOLES and after.isalpha() and _unnamed(after, lexicon, names)
         spoken_of = any(names.hear(w) is not None for w in words[:i])
+        generic = after in GENERIC and names.hear(after) is None and not spoken_of
+        whole = word in WHOLES and after.isalpha() and (generic or _unnamed(after, lexicon, names))
         every = word == "everything" and after not in ("else", "that", "in", "on") and not spoken_of
         every = every or (words[i : i + 3] == ["all", "of", "it"] and not spoken_of)
         if not whole and not every:

@@ -39,6 +39,8 @@ OPENING_GAPS = frozenset(
         "need",
         "want",
         "is",
+        "are",
+        "just",
         "be",
         "should",
         "must",
@@ -86,7 +88,7 @@ def more_extent(words: list[str], lexicon: Lexicon, names: Names) -> list[str]:
 
     def step(i: int) -> tuple[list[str], int] | None:
         before = words[i] in EXTRA
-        end = _amount_end(words, i + before, lexicon)
+        end = amount_end(words, i + before, lexicon)
         if end is None or end == i + before + 1:
             return None
         amount, sign = words[i + before : end], "less" if words[end : end + 1] == ["less"] else "more"
@@ -121,8 +123,8 @@ def spaced(words: list[str], lexicon: Lexicon, names: Names) -> list[str]:
 
 def gapped(words: list[str], lexicon: Lexicon, names: Names) -> list[str]:
     """ "Leave a 25 px gap between A and B" is a gap between A and B that should be 25 px."""
-    for i in range(len(words) - 4):
-        end = _amount_end(words, i, lexicon)
+    for i in range(len(words) - 2):
+        end = amount_end(words, i, lexicon)
         if end is None or end == i + 1:
             continue
         amount = words[i:end]
@@ -145,7 +147,7 @@ def signed(words: list[str], lexicon: Lexicon, names: Names) -> list[str]:
     def step(i: int) -> tuple[list[str], int] | None:
         sign = words[i] if words[i] in SIGNS else ""
         start = i + 1 if sign else i
-        end = _amount_end(words, start, lexicon)
+        end = amount_end(words, start, lexicon)
         if end is None:
             return _signed_extent(words, i, lexicon)
         if words[end : end + 1] and words[end] in PLACES and words[end + 1 : end + 2] and words[end + 1] in AXES:
@@ -164,13 +166,13 @@ def _signed_extent(words: list[str], i: int, lexicon: Lexicon) -> tuple[list[str
     """ "Width -10 %"."""
     extent = lexicon.match(words, i, "dim")
     sign = words[extent[1]] if extent is not None and extent[1] < len(words) else ""
-    end = _amount_end(words, extent[1] + 1, lexicon) if extent is not None and sign in SIGNS else None
+    end = amount_end(words, extent[1] + 1, lexicon) if extent is not None and sign in SIGNS else None
     if extent is None or end is None or (sign == "plus" and end == extent[1] + 2):
         return None
     return [SIGNS[sign], *words[i : extent[1]], "by", *words[extent[1] + 1 : end]], end
 
 
-def _amount_end(words: Sequence[str], i: int, lexicon: Lexicon) -> int | None:
+def amount_end(words: Sequence[str], i: int, lexicon: Lexicon) -> int | None:
     """The end of a number and its unit at `i`; a number in words needs a unit."""
     digits = i < len(words) and NUMBER.match(words[i])
     if i >= len(words) or not (digits or (lexicon.knows(words[i], {"number"}) and words[i] not in ("a", "an", "one"))):
@@ -193,7 +195,7 @@ def multiplied(words: list[str], lexicon: Lexicon, names: Names) -> list[str]:
             and not lexicon.knows(words[i + 2] if i + 2 < len(words) else "", {"unit"})
         ):
             return ["to", after, "times"], i + 2
-        end = _amount_end(words, i + 1, lexicon) if words[i] in ("at", "@") else None
+        end = amount_end(words, i + 1, lexicon) if words[i] in ("at", "@") else None
         return (["to", *words[i + 1 : end]], end) if end is not None and words[end - 1] in PERCENT else None
 
     return scan(words, step)
