@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from iconjax.errors import ConfigError, InputError
-from iconjax.files import check_writable, image_format
+from iconjax.files import IMAGE_SUFFIXES, check_writable, image_format
 
 if TYPE_CHECKING:
     from iconjax.language.base import Translator
@@ -40,6 +40,17 @@ def default_output(picture: str) -> Path:
     return Path(f"{path.resolve().name if path.is_dir() else path.stem}-edited.png")
 
 
+def one_segment(picture: str, count: int) -> str | None:
+    """What to say of a picture of `count` segments where they are one, in which nothing can be moved apart."""
+    if count != 1:
+        return None
+    if is_vector(picture):
+        way = "split its path or group into several in a drawing program, or take a file with more elements"
+    else:
+        way = "cut its label map in two, find more with iconjax segment (--method, --holes), or take another file"
+    return f"{picture} has one segment, so that nothing in it can be moved apart: {way}"
+
+
 def check_picture(picture: str, seg: str | None, labels: str | None) -> None:
     """A picture with its segments, or a folder that has them in itself.
 
@@ -56,12 +67,28 @@ def check_picture(picture: str, seg: str | None, labels: str | None) -> None:
             raise InputError(
                 f"{picture} is a case folder, which has its own segmentation: leave out --seg and --labels"
             )
+        check_folder(path)
     elif is_vector(picture):
         if seg is not None:
             raise InputError(f"{picture} is an SVG, which has its segments in itself: leave out --seg")
     elif seg is None:
         raise InputError(
             f"{picture} is an image, so it needs --seg (a label map) and --labels; or run iconjax segment {picture}"
+        )
+
+
+def check_folder(folder: Path) -> None:
+    """Whether a folder is a case folder or one made by `iconjax segment`.
+
+    Raises:
+        InputError: it is neither.
+    """
+    from iconjax.scene.segment.folder import is_parts
+
+    if not (folder / "case.json").exists() and not is_parts(folder):
+        raise InputError(
+            f"{folder} is no picture: a case folder has case.json, image.png and segmentation.png; one made by "
+            "iconjax segment has image.png, segmentation.png and labels.json"
         )
 
 
@@ -107,9 +134,13 @@ def check_outputs(
         InputError: the first that is wrong.
     """
     target = pictures[0]
+    vector = is_vector(inputs[0] or "")
     if not is_vector(target):
+        if vector and target.suffix.lower() not in IMAGE_SUFFIXES:
+            known = ", ".join((".svg", ".svgz", *IMAGE_SUFFIXES))
+            raise InputError(f"cannot write {target}: the name of an edited SVG ends in one of {known}")
         image_format(target)
-    elif not is_vector(inputs[0] or ""):
+    elif not vector:
         raise InputError(f"cannot write {target}: only an edited SVG can be saved as SVG, name it .png")
     targets = [p for p in (*pictures, json_file, trace) if p is not None and str(p) != "-"]
     places = [Path(p).resolve() for p in targets]

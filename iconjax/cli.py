@@ -10,10 +10,11 @@ from typing import Any
 import click
 
 from iconjax import __version__
-from iconjax.checks import check_choices, check_outputs, check_picture, default_output, numbered
+from iconjax.checks import check_choices, check_outputs, check_picture, default_output, numbered, one_segment
 from iconjax.cli_eval import evaluate
 from iconjax.cli_segment import label, segment
 from iconjax.console import PoliteGroup, progress, say
+from iconjax.errors import ConfigError
 
 Command = Callable[..., Any]
 
@@ -103,11 +104,14 @@ def edit(
     by `iconjax segment`, or an image with --seg and --labels. Without REQUEST, that of the case folder is used.
     """
     reader = check_choices(translator, program, interpretations, model=model, record=record, replay=replay)
+    if program is not None and request is not None:
+        raise ConfigError("--program takes the place of a request: leave out one of them")
     target = Path(output) if output is not None else default_output(picture)
     pictures = numbered(target, interpretations)
     check_outputs(pictures, json_file, trace, inputs=(picture, seg, labels, program))
     check_picture(picture, seg, labels)
     text = None if program is None else _program(program)
+    from iconjax.edit.aside import asides
     from iconjax.edit.config import EditConfig
     from iconjax.edit.explain import amount
 
@@ -131,14 +135,16 @@ def edit(
         one.save(path)
     for number, one in enumerate(result.interpretations, start=1):
         say(f"reading {number} of {len(result.interpretations)}: {one.gloss}")
+    if lonely := one_segment(picture, len(result.scene.segments)):
+        say(lonely)
     if json_file == "-":
         click.echo(result.to_json())
     elif json_file is not None:
         result.to_json(json_file)
     if trace is not None:
         result.to_html(trace)
-    for note in result.vector.notes if result.vector is not None else ():
-        say(note)
+    for line in (*(result.vector.notes if result.vector is not None else ()), *asides(result)):
+        say(line)
     missed = result.missed()
     for constraint in missed:
         say(f"missed {constraint.text} by {amount(constraint)}")

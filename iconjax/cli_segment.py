@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from iconjax.checks import is_vector
+from iconjax.checks import is_vector, one_segment
 from iconjax.console import progress, say
 from iconjax.errors import IconjaxError, InputError
 from iconjax.files import check_writable
@@ -44,7 +44,7 @@ def segment(
     """Find the segments of IMAGE and write a folder that the other commands take in place of a picture.
 
     The folder gets image.png, segmentation.png, sheet.png (the segments with their numbers) and labels.json, in
-    which each number has a provisional name such as "Red circle": write your own names there, as "Object:Part".
+    which each number has a provisional name such as "Red circle 1": write your own names there, as "Object:Part".
     """
     _check_image(picture)
     folder = Path(output) if output is not None else Path(f"{Path(picture).stem}-parts")
@@ -74,8 +74,9 @@ def segment(
         files.write_mask(folder / files.MASK, found.mask)
         files.write_labels(folder / files.LABELS, found.labels)
         files.write_picture(folder / files.SHEET, _sheet(scene))
-    count = len(found.labels)
-    say(f'{folder}: {count} segment{"s" if count > 1 else ""}; see {files.SHEET}, name them in {files.LABELS}, then: '
+    if lonely := one_segment(picture, len(found.labels)):
+        say(lonely)
+    say(f'{folder}: {_counted(found)}; see {files.SHEET}, name them in {files.LABELS}, then: '
         f'iconjax edit {folder} "REQUEST"')  # fmt: skip
 
 
@@ -94,7 +95,8 @@ def label(
     """Draw the segments of PICTURE with their numbers, and write a labels file to fill in.
 
     PICTURE is an SVG, an image with --seg, a case folder, or a folder made by `iconjax segment`. Write names such
-    as "Lamp:Shade" behind the numbers; --labels of the other commands takes the file.
+    as "Lamp:Shade" behind the numbers; --labels of the other commands takes the file. Names that are filled in stay
+    when --force draws the sheet again.
     """
     from iconjax.scene.segment import folder as files
 
@@ -114,17 +116,44 @@ def label(
         from iconjax.scene.segment.given import open_segments
 
         given = open_segments(picture, seg, labels)
-        found = given.segmentation
-        if set(found.labels) - given.named:
+        kept, lost = _kept(table, labels, given.segmentation.labels)
+        found = replace(given.segmentation, labels={**given.segmentation.labels, **kept})
+        named = given.named | set(kept)
+        if set(found.labels) - named:
             stage("naming segments")
             insist = suggester not in (None, "auto")
-            found = _named(given.scene.image, found, namer, insist, keep=given.named)
+            found = _named(given.scene.image, found, namer, insist, keep=named)
         stage("drawing the sheet")
         files.write_picture(sheet, _sheet(given.renamed(found.labels)))
         files.write_labels(table, found.labels)
     for note in given.notes:
         say(note)
-    say(f"{sheet}: {len(found.labels)} segments; name them in {table}, which --labels takes")
+    if lost:
+        say(f"{table} named segments that there are not, which were left out: {', '.join(lost)}")
+    if lonely := one_segment(picture, len(found.labels)):
+        say(lonely)
+    say(f"{sheet}: {_counted(found)}; name them in {table}, which --labels takes")
+
+
+def _kept(table: Path, labels: str | None, known: Collection[int]) -> tuple[dict[int, str], list[str]]:
+    """Names that somebody filled in in an existing labels file and that `labels` does not say, and those of no segment.
+
+    Raises:
+        InputError: the file is no labels file.
+    """
+    if not table.exists():
+        return {}, []
+    from iconjax.scene.labels import read_labels
+    from iconjax.scene.segment.names import is_provisional
+
+    said = {} if labels is None else read_labels(labels)
+    filled = {k: name for k, name in read_labels(table).items() if k not in said and not is_provisional(name, k)}
+    return {k: name for k, name in filled.items() if k in known}, [n for k, n in filled.items() if k not in known]
+
+
+def _counted(found: Segmentation) -> str:
+    count = len(found.labels)
+    return f"{count} segment{'s' if count != 1 else ''}"
 
 
 def _check_image(picture: str) -> None:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from iconjax.checks import is_vector
+from iconjax.checks import check_folder, is_vector
 from iconjax.errors import InputError
 from iconjax.files import describe
 from iconjax.scene.build import build_scene
@@ -51,6 +51,7 @@ def open_inputs(image: Any, seg: Any = None, request: str | None = None, labels:
     if is_folder(image):
         if seg is not None or labels is not None:
             raise InputError(f"{image} is a case folder, which has its own segmentation: leave out seg and labels")
+        check_folder(Path(image))
         case = load_case(image)
         scene = build_scene(case.image, case.segmentation)
         return Inputs(scene, case.request if request is None else request)

@@ -50,7 +50,7 @@ class AutoSegmenter:
     def segment(self, image: UInt8[np.ndarray, "H W 3"]) -> Segmentation:
         """See `Segmenter`."""
         pixels = working_copy(image)
-        labels, glyph = _colour_regions(pixels, self.holes, self.most)
+        labels, glyph = _colour_regions(pixels, self.holes, self.most, len(pixels) <= len(image))
         return _named(_cut(labels) if glyph else labels, image, colours=not glyph)
 
 
@@ -64,7 +64,9 @@ class ColourSegmenter:
 
     def segment(self, image: UInt8[np.ndarray, "H W 3"]) -> Segmentation:
         """See `Segmenter`."""
-        return _named(_colour_regions(working_copy(image), self.holes, self.most)[0], image, colours=True)
+        pixels = working_copy(image)
+        labels, _ = _colour_regions(pixels, self.holes, self.most, len(pixels) <= len(image))
+        return _named(labels, image, colours=True)
 
 
 @dataclass(frozen=True)
@@ -80,7 +82,8 @@ class GlyphSegmenter:
         pixels = working_copy(image)
         away = np.linalg.norm(lab(pixels) - lab(background(pixels)[None, None]), axis=2)
         ink = np.clip(255 * (1.5 - 2 * away / max(float(np.percentile(away, 99)), 1.0)), 0, 255)
-        labels, _ = _colour_regions(np.repeat(ink[..., None], 3, 2).astype(np.float32), self.holes, self.most)
+        grey = np.repeat(ink[..., None], 3, 2).astype(np.float32)
+        labels, _ = _colour_regions(grey, self.holes, self.most, gradients=False)
         return _named(_cut(labels), image, colours=False)
 
 
@@ -93,11 +96,11 @@ def background(pixels: Pixels) -> Float[np.ndarray, " 3"]:
     return np.asarray(colours[counts.argmax()], np.float32)
 
 
-def _colour_regions(pixels: Pixels, holes: bool, most: int) -> tuple[Labels, bool]:
-    """Segments 1..n over the background 0, and whether they have one colour."""
+def _colour_regions(pixels: Pixels, holes: bool, most: int, gradients: bool) -> tuple[Labels, bool]:
+    """Segments 1..n over the background 0, and whether they have one colour; `gradients` as in `mixtures`."""
     colour = lab(pixels)
     ground = lab(background(pixels)[None, None])[0, 0]
-    found = patches(pixels, colour)
+    found = patches(pixels, colour, gradients)
     if (found > 0).mean() < FLAT:
         raise InputError(
             "the picture has hardly any flat colours: it looks like a photograph or noise, not an icon; "

@@ -15,15 +15,25 @@ LINK = 3.0
 """Neighbours whose colours differ less, in CIELAB, show the same patch."""
 LEAST, MOST = 4, 1200
 """Pixels of the smallest patch, and the most patches; of more, the largest are kept."""
+STEADY, STEEPEST, REACH = 0.3, 10.0, 3
+"""Over so many pixels to either side, the steps of a gradient differ less than this share of their mean, which is at
+most so steep, in 8-bit steps a pixel; an edge is over sooner."""
+ROUNDING = 1.5
+"""Steps of rounded colours are off by less than this."""
 _HALF = ((0, 1), (1, 0), (1, 1), (1, -1))
 
 Colours = Float[np.ndarray, "H W 3"]
 
 
-def mixtures(image: Colours) -> Bool[np.ndarray, "H W"]:
+def mixtures(image: Colours, gradients: bool = True) -> Bool[np.ndarray, "H W"]:
     """Pixels whose colour lies between those of two opposite neighbours: anti-aliased or blurred edges.
 
-    A gradient is no mixture as long as it changes by less than `MIXED` a pixel; the ridge of a thin stroke is none.
+    A gradient is no mixture as long as it changes by less than `MIXED` a pixel or changes steadily; the ridge of a
+    thin stroke is none.
+
+    Args:
+        image: sRGB, 0..255.
+        gradients: whether steady changes are gradients; in a picture that was enlarged, edges are as steady.
     """
     padded = np.pad(image, ((1, 1), (1, 1), (0, 0)), mode="edge")
     height, width = image.shape[:2]
@@ -32,8 +42,28 @@ def mixtures(image: Colours) -> Bool[np.ndarray, "H W"]:
         a = padded[1 - dy : 1 - dy + height, 1 - dx : 1 - dx + width]
         b = padded[1 + dy : 1 + dy + height, 1 + dx : 1 + dx + width]
         pa, pb, ab = _norm(image - a), _norm(image - b), _norm(a - b)
-        out |= (np.minimum(pa, pb) > MIXED) & (pa + pb < DETOUR * ab)
+        found = (np.minimum(pa, pb) > MIXED) & (pa + pb < DETOUR * ab)
+        rows, cols = np.nonzero(found & (ab < 2 * STEEPEST) & gradients)
+        found[rows, cols] = ~_steady(image, rows, cols, dy, dx)
+        out |= found
     return out
+
+
+def _steady(
+    image: Colours, rows: Int[np.ndarray, " n"], cols: Int[np.ndarray, " n"], dy: int, dx: int
+) -> Bool[np.ndarray, " n"]:
+    """Whether the colour changes by equal steps along (dy, dx) about pixels; never so beyond the picture's border."""
+    height, width = image.shape[:2]
+    inside = np.ones(len(rows), dtype=bool)
+    run = []
+    for k in range(-REACH, REACH + 1):
+        r, c = rows + k * dy, cols + k * dx
+        inside &= (r >= 0) & (r < height) & (c >= 0) & (c < width)
+        run.append(image[np.clip(r, 0, height - 1), np.clip(c, 0, width - 1)])
+    steps = np.diff(np.stack(run), axis=0)
+    mean = steps.mean(axis=0)
+    off = _norm(steps - mean).max(axis=0)
+    return np.asarray(inside & (off < STEADY * _norm(mean) + ROUNDING))
 
 
 def linked(colour: Colours, use: Bool[np.ndarray, "H W"], limit: float) -> tuple[Int[np.ndarray, "H W"], int]:
@@ -55,14 +85,15 @@ def linked(colour: Colours, use: Bool[np.ndarray, "H W"], limit: float) -> tuple
     return labels.reshape(height, width), int(labels.max())
 
 
-def patches(image: Colours, colour: Colours) -> Int[np.ndarray, "H W"]:
+def patches(image: Colours, colour: Colours, gradients: bool = True) -> Int[np.ndarray, "H W"]:
     """Patches 1..n, at most `MOST` and of at least `LEAST` pixels; 0 where a pixel belongs to none yet.
 
     Args:
         image: sRGB, 0..255, in which anti-aliasing is linear.
         colour: the same in CIELAB, in which equal steps look equal.
+        gradients: as `mixtures` takes it.
     """
-    labels, _ = linked(colour, ~mixtures(image), LINK)
+    labels, _ = linked(colour, ~mixtures(image, gradients), LINK)
     sizes = np.bincount(labels.ravel())
     sizes[0] = 0
     least = max(LEAST, int(np.sort(sizes)[-MOST]) if len(sizes) > MOST else 0)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from iconjax.checks import is_vector
+from iconjax.checks import check_folder, is_vector
 from iconjax.errors import InputError
 from iconjax.scene.build import build_scene
 from iconjax.scene.labels import number_names, read_labels
@@ -63,6 +63,7 @@ def open_segments(picture: str, seg: str | None = None, labels: str | None = Non
     if Path(picture).is_dir():
         if seg is not None:
             raise InputError(f"{picture} is a case folder, which has its own segmentation: leave out --seg")
+        check_folder(path)
         case = load_case(picture)
         found = case.segmentation
         names = {**found.labels, **_known(labels, found.labels)}

@@ -7,7 +7,6 @@ from jaxtyping import Bool, Int, UInt8
 from scipy import ndimage
 
 from iconjax.scene.colours import colour_word
-from iconjax.scene.labels import number_names
 from iconjax.scene.outline import fill
 
 SOLID = 0.93
@@ -25,28 +24,40 @@ PIXEL = 0.8
 RING = 0.12
 """Least share of a disc that a hole takes to make it a ring."""
 
+KINDS = frozenset(["circle", "ring", "oval", "square", "rectangle", "bar", "triangle", "piece", "ellipse", "line"])
+"""What provisional names call things, also in an SVG."""
+
 
 def provisional_names(
     labels: Int[np.ndarray, "H W"], image: UInt8[np.ndarray, "H W 3"], colours: bool = True
 ) -> dict[int, str]:
-    """Names such as "Red circle" or "Grey bar #2" for the segments 1..n, numbered by the contract where they repeat.
+    """Names such as "Red circle 1" or "Grey bar 2" for the segments 1..n, each with its own number.
 
     Args:
         labels: the label map.
         image: the picture.
         colours: False where all segments have one colour, so that it tells nothing.
     """
-    names, centres = {}, {}
+    names = {}
     for k, window in enumerate(ndimage.find_objects(labels), 1):
         if window is None:
             continue
         mask = labels[window] == k
         kind = shape_word(mask)
         middle = np.median(image[window][mask], axis=0).astype(float)
-        names[k] = f"{colour_word(middle)} {kind}" if colours else kind.capitalize()
-        rows, cols = window
-        centres[k] = ((cols.start + cols.stop) / 2, (rows.start + rows.stop) / 2)
-    return number_names(names, centres, image.shape[1])
+        names[k] = numbered_name(f"{colour_word(middle)} {kind}" if colours else kind.capitalize(), k)
+    return names
+
+
+def numbered_name(name: str, number: int) -> str:
+    """A provisional name with its segment's number: unique, and one numbering with that on the sheet."""
+    return f"{name} {number}"
+
+
+def is_provisional(name: str, number: int) -> bool:
+    """Whether a segment's name looks like one that `numbered_name` made for it."""
+    words = name.rpartition(":")[2].casefold().split()
+    return len(words) >= 2 and words[-1] == str(number) and words[-2] in KINDS
 
 
 def shape_word(mask: Bool[np.ndarray, "h w"]) -> str:

@@ -15,6 +15,7 @@ from jaxtyping import UInt8
 from iconjax.errors import InputError
 from iconjax.scene.labels import check_labels, read_json, read_labels
 from iconjax.scene.load import MAX_SEGMENTS
+from iconjax.scene.segment.names import numbered_name
 from iconjax.scene.svg import details
 from iconjax.scene.svg.draw import Painter
 from iconjax.scene.svg.grouping import Draft, draft_segments
@@ -158,7 +159,7 @@ def _on_white(painter: Painter) -> UInt8[np.ndarray, "H W 3"]:
 
 
 def _labels(drafts: list[Draft], labels: Any) -> tuple[dict[int, str], frozenset[int]]:
-    table = {k: draft.label for k, draft in enumerate(drafts, 1)}
+    table = {k: d.label if d.named else numbered_name(d.label, k) for k, d in enumerate(drafts, 1)}
     if labels is None:
         return table, frozenset()
     if isinstance(labels, str | os.PathLike) and Path(labels).suffix.lower() == ".json":

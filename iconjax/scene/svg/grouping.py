@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from iconjax.scene.svg.items import Item
-from iconjax.scene.svg.naming import given_name, item_name, made_up_name
+from iconjax.scene.svg.naming import counted_ids, given_name, item_name, made_up_name
 from iconjax.scene.svg.sight import Sight, overlap, solid
 from iconjax.scene.svg.tree import Node
 
@@ -64,11 +64,12 @@ class _Names:
     def __init__(self, items: Sequence[Item], by_id: Mapping[str, Sequence[Node]], open_groups: bool) -> None:
         self.open_groups = open_groups
         self.given: dict[int, str] = {}
+        counted = counted_ids(by_id)
         holders: dict[int, set[int]] = {}
         for k, item in enumerate(items):
-            self.given.setdefault(item.node.order, item_name(item.node, by_id))
+            self.given.setdefault(item.node.order, item_name(item.node, by_id, counted))
             for group in item.groups:
-                self.given.setdefault(group.order, given_name(group))
+                self.given.setdefault(group.order, given_name(group, counted))
                 holders.setdefault(group.order, set()).add(k)
         self.wrappers = {order for order, held in holders.items() if len(held) == len(items) and len(items) > 1}
         self.split = {  # labelled groups in which something else is labelled

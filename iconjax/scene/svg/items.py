@@ -23,6 +23,13 @@ UNDRAWN = {
 """What is not drawn, and how a note calls it."""
 
 
+def _moves_in_time(node: Node) -> bool:
+    """Whether a browser puts an animated transform in the place of the written one."""
+    if node.tag == "style":
+        return "@keyframes" in node.text and "transform" in node.text
+    return node.tag == "animateTransform" and node.get("additive") != "sum"
+
+
 @dataclass(frozen=True, eq=False)
 class Item:
     """Something that is moved as a whole.
@@ -79,6 +86,8 @@ class Walk:
         for node in root.walk():
             if node.tag in UNDRAWN:
                 self.note(f"{UNDRAWN[node.tag]} (not drawn)")
+            if _moves_in_time(node):
+                self.note("animations of transform (in a browser they override the edit of what they move)")
             if styles.own(node).get("vector-effect", "none") != "none":
                 self.note("vector effects (strokes are scaled with the rest)")
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 from jaxtyping import Float
@@ -31,26 +31,49 @@ _MADE_UP = re.compile(
     re.VERBOSE | re.IGNORECASE,
 )
 _ESCAPE = re.compile(r"_x([0-9A-Fa-f]{2,4})_")
+_COUNTED = re.compile(r"(.+)[-_. ]([A-Za-z]{1,2})$")
+FEW = 3
+"""So many ids of one beginning and a single letter were counted by a program, if they are most of the file's."""
 LONGEST = 60
 READ = 200
 """Characters of a name that are looked at."""
 
 
-def item_name(node: Node, by_id: Mapping[str, Sequence[Node]]) -> str:
-    """The name of an element that is moved as a whole: its own, that of what it uses, or the only one in it."""
-    if name := given_name(node):
+def item_name(node: Node, by_id: Mapping[str, Sequence[Node]], counted: Collection[str] = ()) -> str:
+    """The name of an element that is moved as a whole: its own, that of what it uses, or the only one in it.
+
+    Args:
+        by_id: the file's elements.
+        counted: ids that are no names; see `counted_ids`.
+    """
+    if name := given_name(node, counted):
         return name
     if node.tag == "use" and node.href.startswith("#"):
-        return next((name for target in by_id.get(node.href[1:], ()) if (name := given_name(target))), "")
-    inside = {name for child in list(node.walk())[1:] if (name := given_name(child))}
+        return next((name for target in by_id.get(node.href[1:], ()) if (name := given_name(target, counted))), "")
+    inside = {name for child in list(node.walk())[1:] if (name := given_name(child, counted))}
     return inside.pop() if len(inside) == 1 else ""
 
 
-def given_name(node: Node) -> str:
-    """What the file calls an element, "" where it says nothing that a person would say."""
+def counted_ids(ids: Collection[str]) -> frozenset[str]:
+    """Of a file's ids, those in which a program counts by letters behind the file's name: "nut-a", "nut-b", "nut-c"."""
+    groups: dict[str, dict[str, str]] = {}
+    for name in ids:
+        if match := _COUNTED.match(name):
+            groups.setdefault(match[1].casefold(), {})[name] = match[2]
+    programs = (
+        group
+        for group in groups.values()
+        if 2 * len(group) > len(ids) and sum(len(letters) == 1 for letters in group.values()) >= FEW
+    )
+    return frozenset(name for group in programs for name in group)
+
+
+def given_name(node: Node, counted: Collection[str] = ()) -> str:
+    """What the file calls an element, "" where it says nothing that a person would say; `counted` as in `item_name`."""
     title = next((child.text for child in node.children if child.tag == "title"), "")
     words = node.get("class").split()
-    for text in (node.get("inkscape:label"), node.get("data-name"), node.get("id"), title, *words):
+    own = "" if node.get("id") in counted else node.get("id")
+    for text in (node.get("inkscape:label"), node.get("data-name"), own, title, *words):
         if name := tidy(text):
             return name
     return ""
