@@ -35,7 +35,15 @@ def test_command_is_understood(line):
 
 
 def test_enough_commands_were_found():
-    assert {c.split()[0] for c in shown_commands()} == {"edit", "translate", "relations", "dsl", "eval", "label", "segment"}
+    assert {c.split()[0] for c in shown_commands()} == {
+        "edit",
+        "translate",
+        "relations",
+        "dsl",
+        "eval",
+        "label",
+        "segment",
+    }
 
 
 def test_test_command_is_what_ci_runs():

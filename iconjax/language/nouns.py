@@ -129,7 +129,11 @@ class NounReader:
     def _goes_on(self, nouns: Sequence[str], i: int) -> bool:
         """Whether the word at `i`, though it has other uses, completes a name: "the table | top"."""
         heard = self.names.hear(self.word(i))
-        if heard is None or self.lexicon.knows(self.word(i), {"direction", "adjective", "relation", "mode", "stop"}):
+        if (
+            heard is None
+            or self._amount(i)
+            or self.lexicon.knows(self.word(i), {"direction", "adjective", "relation", "mode", "stop"})
+        ):
             return False
         cover = self.names.hearing.cover
         parts = self.names.parts
@@ -195,11 +199,19 @@ class NounReader:
     def noun_at(self, i: int, announced: bool) -> bool:
         """Whether the word at `i` names something; words of the grammar do only where a noun is announced."""
         word = self.word(i)
-        if not word or self.names.hear(word) is None:
+        if not word or self.names.hear(word) is None or self._amount(i):
             return False
         if announced or self._bare(i):
             return True
         return not self.lexicon.knows(word, GRAMMAR)
+
+    def _amount(self, i: int) -> bool:
+        """Whether a number, though a label has it ("Piece 2"), is an amount: "2 px", "2 times", or after no noun."""
+        if not self.word(i).isdigit():
+            return False
+        before = self.word(i - 1) if i else ""
+        numbering = bool(before) and not before.isdigit() and self.names.hear(before) is not None
+        return not numbering or self.lexicon.match(self.words, i + 1, "unit") is not None
 
     def _bare_one(self, i: int) -> bool:
         """Whether "left one", "big one" opens a phrase without an article."""

@@ -31,6 +31,7 @@ def tokenise(request: str) -> list[str]:
     text = re.sub(r"(?<![\w.])-(?=\d)", " minus", text)  # kept as a word of its own
     text = re.sub(r"(?<=\d)-(?=[a-z])", " ", text)
     text = re.sub(r"(?<=[a-z.,%]) +[-\u2013] +(?=[a-z\d])| *\u2014 *", " ; ", text)  # a dash between clauses
+    text = re.sub(r"(?<=[a-z]) *# *(?=\d)", " ", text)  # "piece #2"
     words: list[str] = []
     for match in re.finditer(
         r"\d+(?:st|nd|rd|th)\b|\d+(?:\.\d+)?|minus(?=\d)|[a-zà-öø-ÿ]+(?:-[a-zà-öø-ÿ]+)*|'s\b|[%°º×;:,.!?&#/=+-]",
